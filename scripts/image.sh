@@ -30,7 +30,7 @@ for program in $programs; do
   strip -o "$root/usr/bin/$program" "$build/bin/$program"
 done
 cp -r scenes scripts/cluster "$root/usr/share/swell"
-cp LICENSE "$root/usr/share/doc/swell/copyright"
+{ cat LICENSE && echo && cat cmake/notices.txt; } >"$root/usr/share/doc/swell/copyright"
 echo "root:x:0:0:root:/root:/bin/sh
 swell:x:1000:1000::/data:/bin/sh" >"$root/etc/passwd"
 echo "root:x:0:

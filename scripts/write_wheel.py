@@ -87,8 +87,8 @@ def bundle(module, libraries, facts):
 
 
 def licences(libraries):
-    """{file: bytes}: ours, and those of Debian's packages whose libraries go along."""
-    files = {"LICENSE": (SOURCE / "LICENSE").read_bytes()}
+    """{file: bytes}: ours, those of what is compiled in, and those of Debian's packages whose libraries go along."""
+    files = {"LICENSE": (SOURCE / "LICENSE").read_bytes(), "notices.txt": (SOURCE / "cmake/notices.txt").read_bytes()}
     for name in libraries:
         if not name.startswith("libswell."):
             package = run("dpkg-query", "-S", f"*/{name}").split(":")[0]

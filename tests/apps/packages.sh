@@ -62,6 +62,17 @@ unpack "$root" "$work"/packages/*.deb
 for page in "$root"/usr/share/man/man1/*.gz; do
   mandoc -T lint -W error "$page" || fail "mandoc finds errors in $page"
 done
+# Whose code is compiled in is in them: of all headers of the build those that are more than an interface in C.
+plain='libc6|linux-libc|libstdc..-.*|libgcc-.*|libpython3.*|libsdl2|zlib1g|libpng|libturbojpeg0|libmeshoptimizer'
+tests='libgtest|libkissfft|libosmesa6|libegl|libgl'
+for name in $(ninja -C "$build" -t deps | sed -n 's#^ *\(/usr/include/.*\)#\1#p' | sort -u | xargs dpkg -S |
+    sed 's/:.*//; s/^libboost[0-9.]*/libboost/' | sort -u | grep -vxE "($plain|$tests)-dev"); do
+  grep -qF "($name)" "$root/usr/share/doc/swell/copyright" || fail "no copyright of $name"
+done
+for words in 'Redistributions in binary form' 'copies or substantial portions' common-licenses/Apache-2.0 \
+    'Boost Software License'; do
+  grep -qF "$words" "$root/usr/share/doc/swell/copyright" || fail "no licence that says '$words'"
+done
 desktop-file-validate "$root"/usr/share/applications/*.desktop
 for package in "$work"/packages/*.deb; do
   case $(dpkg-deb -f "$package" Maintainer) in *localhost*) fail "the maintainer is nobody" ;; esac

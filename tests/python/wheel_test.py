@@ -85,7 +85,7 @@ class Contents(Wheel):
             named = {row[0] for row in csv.reader(file)}
         files = {file.relative_to(self.files).as_posix() for file in self.files.rglob("*") if file.is_file()}
         self.assertEqual(named, files)
-        for part in ("LICENSE", "libtbb12/copyright", "libpng16-16/copyright"):
+        for part in ("LICENSE", "notices.txt", "libtbb12/copyright", "libpng16-16/copyright"):
             self.assertTrue((record.parent / "licenses" / part).is_file(), part)
 
 
