@@ -257,6 +257,13 @@ class PackageLists(Temporary):
         self.assertEqual(built, {"swell-render", "swell-bench", "swell_installed"})
 
 
+class CompilersSh(unittest.TestCase):
+    def test_an_unknown_compiler_ends_it_with_2(self):
+        run = subprocess.run([SOURCE / "scripts/compilers.sh", "g++-1"], capture_output=True, text=True, check=False)
+        self.assertEqual((run.returncode, run.stdout), (2, ""))
+        self.assertRegex(run.stderr, r"^error: compiler, got 'g\+\+-1', allowed clang\+\+-16 .*\n$")
+
+
 class TidySh(unittest.TestCase):
     def test_an_unknown_option_ends_it_with_2(self):
         run = subprocess.run([SOURCE / "scripts/tidy.sh", "--nonsense"], capture_output=True, text=True, check=False)
