@@ -1,7 +1,7 @@
 # swell_options: what every translation unit of ours is compiled with.
 add_library(swell_options INTERFACE)
 target_compile_options(swell_options INTERFACE
-  $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wconversion;-Wno-sign-conversion;-Werror>
+  $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion;-Werror>
   # Highway's headers compare and convert freely inside its own namespaces.
   $<BUILD_INTERFACE:-Wno-psabi>
   # Per-target headers hold functions and settings that not every file includes them for.
