@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "render/world/world.h"
 #include "scene/camera_path.h"
 #include "terrain/height_grid.h"
 

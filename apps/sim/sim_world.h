@@ -10,9 +10,12 @@
 #include "math/parallel.h"
 #include "ocean/open_sea/sea.h"
 #include "ocean/water_surface.h"
-#include "render/world/world.h"
 #include "scene/file/rig.h"
 #include "scene/water.h"
+
+namespace swell::render {
+class World;
+}
 
 namespace swell::apps {
 
