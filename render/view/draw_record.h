@@ -8,6 +8,8 @@ namespace swell::render {
 
 // The surface's triangles in views of a kind. Valid until the meshes change.
 inline DrawRecord draw_record(const Meshes& meshes, SurfaceKind surface, ViewKind view) {
+  const PlacedSurface& placed = meshes.placed[surface];
+  if (!placed.indices.empty()) return {.indices = placed.indices};
   switch (surface) {
     case SurfaceKind::kWater:
       return {.indices = meshes.water.mesh.indices, .level = meshes.water.mesh.level};
@@ -22,7 +24,7 @@ inline DrawRecord draw_record(const Meshes& meshes, SurfaceKind surface, ViewKin
     case SurfaceKind::kRivers:
       return {.indices = meshes.rivers.indices};
     default:
-      return {.indices = meshes.placed[surface].indices};
+      return {};
   }
 }
 
@@ -40,6 +42,7 @@ void visit_points(const Meshes& meshes, SurfaceKind surface, const RenderView& v
           {heights.offset[i], height_m + mean_rel_m}, height_m - level_m, level_rel_m};
     });
   };
+  const PlacedSurface& placed = meshes.placed[surface];
   switch (surface) {
     case SurfaceKind::kWater:
       return visit_heights(meshes.water);
@@ -60,7 +63,7 @@ void visit_points(const Meshes& meshes, SurfaceKind surface, const RenderView& v
         return WorldPoint{p, p.z - level_rel_m, level_rel_m};
       });
     default:
-      return visit([&, &placed = meshes.placed[surface]](std::size_t i) {
+      return visit([&](std::size_t i) {
         const glm::vec3 p = placed.p_rel[i];
         return WorldPoint{p, p.z - level_rel_m, level_rel_m};
       });

@@ -55,9 +55,8 @@ float distance_to(const glm::vec4& plane, glm::vec3 p) {
 
 // Maps vertices [begin, end) of a surface, whose points are point(i).
 template <ViewKind kView, class Point>
-void map_points(SurfaceKind surface, std::size_t begin, std::size_t end, RenderView& view,
-                const Point& point) {
-  ViewVertices& out = view.vertices_of(surface);
+void map_points(SurfaceKind surface, std::size_t begin, std::size_t end, const RenderView& view,
+                const Point& point, ViewVertices& out) {
   const glm::mat4 clip_from_rel = view.camera.clip_from_rel;
   const PointMap map{kView, view.eye, view.refraction_index, view.paper_refraction};
   const float drop_per_m2 = view.drop_per_m2;
@@ -80,15 +79,15 @@ void map_points(SurfaceKind surface, std::size_t begin, std::size_t end, RenderV
 }
 
 template <class Point>
-void map_range(SurfaceKind surface, std::size_t begin, std::size_t end, RenderView& view,
-               const Point& point) {
+void map_range(SurfaceKind surface, std::size_t begin, std::size_t end, const RenderView& view,
+               const Point& point, ViewVertices& out) {
   switch (view.kind) {
     case ViewKind::kWindow:
-      return map_points<ViewKind::kWindow>(surface, begin, end, view, point);
+      return map_points<ViewKind::kWindow>(surface, begin, end, view, point, out);
     case ViewKind::kReflection:
-      return map_points<ViewKind::kReflection>(surface, begin, end, view, point);
+      return map_points<ViewKind::kReflection>(surface, begin, end, view, point, out);
     case ViewKind::kRefraction:
-      return map_points<ViewKind::kRefraction>(surface, begin, end, view, point);
+      return map_points<ViewKind::kRefraction>(surface, begin, end, view, point, out);
   }
 }
 
@@ -108,8 +107,9 @@ void map_vertices(const Meshes& meshes, SurfaceKind surface, std::size_t begin, 
                   FrameViews views) {
   for (RenderView* view : views) {
     if (!shows(view->kind, surface)) continue;
+    ViewVertices& out = view->vertices_of(surface);
     visit_points(meshes, surface, *view,
-                 [&](const auto& point) { map_range(surface, begin, end, *view, point); });
+                 [&](const auto& point) { map_range(surface, begin, end, *view, point, out); });
   }
 }
 
