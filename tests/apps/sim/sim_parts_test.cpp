@@ -16,6 +16,7 @@
 #include "apps/sim/sim_world.h"
 #include "apps/sim/simulation.h"
 #include "math/elementary.h"
+#include "render/world/world.h"
 #include "scene/scene.h"
 
 namespace swell::apps {

@@ -46,7 +46,7 @@ struct Beside {
   }
 
   double height(glm::dvec2 p) const {
-    const auto surface = water_surface(world.state(), shot.state().sea);
+    const auto surface = water_surface(world.state(), *shot.state().sea);
     return static_cast<double>(surface.height(p));
   }
   // The longest piece of a beam from the eye that is under water, from 15 cm before a place to
@@ -67,7 +67,9 @@ struct Beside {
 
 double at_share(std::vector<double> values, double share) {
   std::ranges::sort(values);
-  return values.empty() ? 0.0 : values[static_cast<std::size_t>(share * (values.size() - 1.0))];
+  return values.empty()
+             ? 0.0
+             : values[static_cast<std::size_t>(share * (static_cast<double>(values.size()) - 1.0))];
 }
 
 std::string histogram(const std::vector<double>& values) {
