@@ -57,10 +57,15 @@ class Archive {
 
   template <class T>
   void add(T& value) {
-    if constexpr (kIsPlainBytes<T>)
+    if constexpr (std::is_same_v<T, bool>) {
+      std::uint8_t byte = value ? 1 : 0;  // changed bytes may be no bool
+      bytes_.add(&byte, 1);
+      value = byte != 0;
+    } else if constexpr (kIsPlainBytes<T>) {
       bytes_.add(&value, sizeof value);
-    else
+    } else {
       std::apply([&](auto&... field) { (add(field), ...); }, value.fields());
+    }
   }
 
   template <class T>
