@@ -67,7 +67,7 @@ umoci new --image "$image"
 umoci raw add-layer --image "$image" --history.created "$created" --history.created_by scripts/image.sh \
   "$work/layer.tar"
 umoci config --image "$image" --no-history --created "$created" --config.user swell \
-  --config.workingdir /usr/share/swell --config.env PATH=/usr/bin:/bin \
+  --config.workingdir /usr/share/swell --config.env PATH=/usr/bin:/bin --config.env SWELL_CACHE=off \
   --config.entrypoint swell-render --config.cmd --help \
   --config.label org.opencontainers.image.title=swell \
   --config.label "org.opencontainers.image.description=Draws the sea on CPUs, with labels" \
