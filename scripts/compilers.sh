@@ -19,9 +19,10 @@ here() { "$@"; }
 there() { inside sh -c 'cd /swell && exec "$@"' sh "$@"; }
 case $* in *clang++-16*) scripts/setup.sh clang >&2 ;; esac
 if [ "$*" != clang++-16 ]; then
-  root=build/debian13
-  # shellcheck source=scripts/debian13_root.sh
-  . scripts/debian13_root.sh
+  # shellcheck source=scripts/debian_root.sh
+  . scripts/debian_root.sh
+  make_root build/debian13 trixie "$(dpkg --print-architecture)"
+  copy_tree
   there scripts/setup.sh compilers >&2
 fi
 

@@ -5,9 +5,10 @@
 set -eu
 cd "$(dirname "$0")/.."
 [ -x build/release/bin/swell-render ] || { echo "error: build/release/bin/swell-render, got none, allowed one" >&2; exit 2; }
-root=${1:-build/debian13}
-# shellcheck source=scripts/debian13_root.sh
-. scripts/debian13_root.sh
+# shellcheck source=scripts/debian_root.sh
+. scripts/debian_root.sh
+make_root "${1:-build/debian13}" trixie "$(dpkg --print-architecture)"
+copy_tree
 
 # shellcheck disable=SC2016 # inner shells' variables
 hashes='for scene in scenes/*.toml; do

@@ -1,6 +1,7 @@
 #!/bin/sh
-# packages_root.sh BUILD SOURCE: installs Debian packages of a build into an empty Debian 12 that has Python and NumPy,
-# and draws there. Prints what apt brings and in what time. 77: not root, a tool is missing, or no package is to be had.
+# packages_root.sh BUILD SOURCE [PACKAGES]: installs Debian packages, those of the build or of a folder, into an empty
+# Debian 12 of their processor that has Python and NumPy, and draws there what the build does. Prints what apt brings and in
+# what time. 77: not root, a tool is missing, or no package is to be had.
 set -eu
 build=$1
 source=$2
@@ -13,21 +14,16 @@ done
   { echo "skipped: not all is built"; exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-root=$work/root
-# shellcheck disable=SC2016 # apt-get's own names
-mirror=$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' | grep -v security | head -1)
-mmdebstrap --quiet --variant=apt --include=python3-numpy bookworm "$root" "$mirror" ||
-  { echo "skipped: no packages"; exit 77; }
-# The network's settings and apt's own, as this machine has them.
-cp /etc/resolv.conf "$root/etc/"
-cp -r /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/"
+packages=${3:-}
+if [ -z "$packages" ]; then
+  packages=$work/packages
+  cpack --config "$build/CPackConfig.cmake" -B "$packages" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+fi
+architecture=$(dpkg-deb -f "$packages"/libswell0_*.deb Architecture)
+# shellcheck source=scripts/debian_root.sh
+. "$source/scripts/debian_root.sh"
+make_root "$work/root" bookworm "$architecture" python3-numpy || { echo "skipped: no packages"; exit 77; }
 
-# inside COMMAND...: in the root, with its own processes, by which programs find their own folder.
-inside() {
-  # shellcheck disable=SC2016 # that shell's own words
-  unshare --mount sh -c 'mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" env -i "$@"' \
-    "$root" PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C DEBIAN_FRONTEND=noninteractive "$@"
-}
 names() { dpkg-query --admindir="$root/var/lib/dpkg" -W -f '${Package}\n' | sort; }
 kilobytes() { du -sk "$root/usr" | cut -f1; }
 # install PACKAGE...: prints what is new.
@@ -43,9 +39,8 @@ install() {
   echo "$*: $(wc -l <"$work/new") packages, $mb MB, $seconds s: $(paste -sd" " "$work/new")"
 }
 
-cpack --config "$build/CPackConfig.cmake" -B "$work/packages" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 mkdir "$root/swell"
-cp "$work"/packages/*.deb "$root/swell"
+cp "$packages"/*.deb "$root/swell"
 inside apt-get -qq update
 install python3-swell libswell0
 [ "$mb" -lt $most_mb ] || { echo "error: $mb MB, allowed under $most_mb"; exit 1; }
