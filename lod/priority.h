@@ -91,6 +91,7 @@ struct PriorityFrame {
   float least_inv_size2 = 0.0f;  // of the largest size, in units of the domain's
   // The size that counts for a round earth's curvature is this times 4^level, likewise.
   float curvature_inv_size2 = std::numeric_limits<float>::infinity();
+  PriorityKey end_key = kCulledKey;  // from it on diamonds stay whole
 
   bool has_factors = false;  // any of these:
   ReliefFrame relief;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "lod/diamond.h"
@@ -17,6 +18,7 @@ void check_request(const AdaptRequest& request) {
   SWELL_CHECK(std::isfinite(request.min_height_m) && std::isfinite(request.max_height_m) &&
                   request.min_height_m <= request.max_height_m,
               "min_height_m={} max_height_m={}", request.min_height_m, request.max_height_m);
+  SWELL_CHECK(request.least_size_px >= 0.0f, "least_size_px={}", request.least_size_px);
   SWELL_CHECK(request.largest_size_m > 0.0, "largest_size_m={}", request.largest_size_m);
   SWELL_CHECK(request.earth_radius_m > 0.0, "earth_radius_m={}", request.earth_radius_m);
   SWELL_CHECK(std::isfinite(request.frustum_margin) && request.frustum_margin >= 0.0f,
@@ -130,6 +132,17 @@ void set_focuses(const AdaptRequest& request, const Domain& domain, FocusFrame& 
   focus.low = glm::ivec2(low), focus.high = glm::ivec2(high);
 }
 
+// Of diamonds that look as wide as the request's least size. In lattice steps and sizes of the
+// domain, as keys are.
+PriorityKey end_key(const AdaptRequest& request, const Domain& domain) {
+  if (!(request.least_size_px > 0.0f)) return kCulledKey;
+  const double pixel = 2.0 * request.view.tan_half_y / request.view.height_px;  // tangent
+  const double distance_over_size =
+      std::ldexp(1.0 / (pixel * request.least_size_px), domain.lattice_bits);
+  return std::bit_cast<PriorityKey>(
+      std::min(static_cast<float>(distance_over_size * distance_over_size), kLastKey));
+}
+
 }  // namespace
 
 PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& domain) {
@@ -142,6 +155,7 @@ PriorityFrame make_priority_frame(const AdaptRequest& request, const Domain& dom
   if (request.priority == Priority::kProjectedSize) {
     const double sizes = domain.size_m / std::max(request.largest_size_m, lattice.step_m);
     frame.least_inv_size2 = static_cast<float>(sizes * sizes);
+    frame.end_key = end_key(request, domain);
   } else {
     frame.level_mask = 0;
   }

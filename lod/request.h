@@ -61,6 +61,9 @@ struct AdaptRequest {
   // Triangles wider than this are not further from the surface than these are, and kProjectedSize
   // counts them as this wide: half the mean wavelength for waves. > 0.
   double largest_size_m = std::numeric_limits<double>::infinity();
+  // kProjectedSize: no triangle is split that looks narrower than this, as sizes count there, in
+  // pixels at the picture's middle; 0: down to the last level.
+  float least_size_px = 0.0f;
   float min_height_m = 0.0f, max_height_m = 0.0f;  // of all the surface, at all times
   // The surface sinks by r^2 / (2 earth_radius_m) at the horizontal distance r from the eye, and
   // what lies behind its own horizon gets priority 0. > 0; infinity: flat.

@@ -38,10 +38,10 @@ AdaptStatistics move_to_target(Roam::Tree& tree, int budget, const AdaptLimits& 
   const int operation_cap = (limits.priority_groups > 1 ? 4 : 2) * tree.max_triangles;
   for (int step = 1;; ++step) {
     const std::optional<QueueMember> best = tree.split_queue.first();
-    const bool wanted = best && best->key != kCulledKey;
+    const bool wanted = best && best->key < tree.frame.end_key;
     const bool fits = wanted && tree.triangles + added_triangles(tree, best->node) <= budget;
     const std::optional<QueueMember> worst = fits ? std::nullopt : tree.merge_queue.first();
-    const bool too_much = worst && (tree.triangles > budget || worst->key == kCulledKey ||
+    const bool too_much = worst && (tree.triangles > budget || worst->key >= tree.frame.end_key ||
                                     (wanted && *best < *worst));
     if (!fits && !too_much) break;
 

@@ -147,6 +147,7 @@ struct Detail {
   Triangulation triangulation = Triangulation::kRoam;  // of the sea
   int water_triangles = 30000;
   int terrain_triangles = 30000;
+  double least_water_triangle_px = 0.0;  // narrower ones are not split
   bool inverse_distance_priority = false;
   double objects = 8.0;  // floating things' places count as this many times nearer, [1, 64]
   // Parts that count as this many times further away, [1, 16]; 1: as they are (lod/request.h).

@@ -204,6 +204,7 @@ void triangulate_water(const Wanted& wanted, Surface& water) {
       const ocean::WaterBounds bounds = wanted.world.water_bounds(wanted.options.disturbances);
       lod::AdaptRequest request = request_for(wanted, budget, -bounds.height_m, bounds.height_m);
       request.max_slope = bounds.slope;
+      request.least_size_px = static_cast<float>(detail.least_water_triangle_px);
       if (bounds.mean_wavelength_m > 0.0) request.largest_size_m = 0.5 * bounds.mean_wavelength_m;
       request.focuses = water.focuses;
       const bool limited = is_limited(wanted.world.scene.area);

@@ -191,6 +191,10 @@ Rows water_rows() {
                         SWELL_FIELD(detail.water_triangles), "most triangles of the sea"),
       SceneRow::integer("detail.terrain_triangles", Kind::kInteger, {2, 1e6},
                         SWELL_FIELD(detail.terrain_triangles), "most triangles of the terrain"),
+      SceneRow::number("detail.least_water_triangle_px", {0, 64, "pixels"},
+                       SWELL_FIELD(detail.least_water_triangle_px),
+                       "triangles of the sea that look narrower are not split: 4 for many "
+                       "small pictures"),
       SceneRow::choice(
           "detail.triangulation", TriangulationName{},
           "how the sea is cut into triangles: a bintree that follows the view, rings around "

@@ -89,6 +89,43 @@ TEST(Roam, ABudgetIsUsedUpToOneTriangle) {
   }
 }
 
+// From above the middle of the domain, from where all distances are the same but for 6 %.
+TEST(Roam, NoTriangleIsSplitThatLooksNarrowerThanTheLeastSize) {
+  const Domain domain{{-32.0, -32.0}, 64.0, 6};
+  Roam roam(domain, 20000);
+  AdaptRequest request = from_far_above(20000);
+  request.view = make_view({0.0, 0.0, 128.0}, 0.0, -kHalfPi, 1.0, 0.1f, 640, 640);
+  const double focal_px = 320.0 / std::tan(0.5);
+  for (int level = 0; level < 12; ++level) {
+    const double width_px = focal_px * 64.0 * std::pow(2.0, -0.5 * level) / 128.0;
+    request.least_size_px = static_cast<float>(1.001 * width_px);
+    Mesh mesh;
+    roam.adapt(request);
+    roam.extract_mesh(mesh);
+    EXPECT_LE(*std::ranges::max_element(mesh.level), level);
+    EXPECT_GE(*std::ranges::min_element(mesh.level), level - 1);
+  }
+}
+
+TEST(Roam, ALeastSizeGivesTheBestTriangulationOfAsManyTriangles) {
+  Roam roam(sea(), 40000), other(sea(), 40000);
+  int most = 40001;
+  for (const float least_size_px : {8.0f, 24.0f, 40.0f, 100.0f, 1000.0f}) {
+    AdaptRequest request = over_the_sea({3.0, 4.0, 20.0}, 40000);
+    request.least_size_px = least_size_px;
+    const int triangles = roam.adapt(request).triangles;
+    EXPECT_LT(triangles, most);
+    most = triangles == 40000 ? 40001 : triangles;
+    other.rebuild(over_the_sea({3.0, 4.0, 20.0}, triangles));
+    Mesh mesh, expected;
+    roam.extract_mesh(mesh);
+    other.extract_mesh(expected);
+    EXPECT_EQ(mesh.lattice, expected.lattice);
+    EXPECT_EQ(mesh.indices, expected.indices);
+  }
+  EXPECT_EQ(roam.adapt(over_the_sea({3.0, 4.0, 20.0}, 40000)).triangles, 40000);
+}
+
 TEST(Roam, NothingChangesForACameraThatStandsStill) {
   Roam roam(sea(), 10000);
   const AdaptRequest request = over_the_sea({0.0, 0.0, 10.0}, 10000);

@@ -201,6 +201,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(coast.seed);
   SWELL_COMPARE(detail.water_triangles);
   SWELL_COMPARE(detail.terrain_triangles);
+  SWELL_COMPARE(detail.least_water_triangle_px);
   SWELL_COMPARE(detail.background_error_px);
   SWELL_COMPARE(detail.inverse_distance_priority);
   SWELL_COMPARE(terrain.has_value());
