@@ -36,6 +36,11 @@ class Queue {
   bool contains(int node) const { return positions_[static_cast<std::size_t>(node)] >= 0; }
   PriorityKey key(int node) const;  // of a member
 
+  // By position in [0, size()), in no order: insert() adds a last one, and erase() moves the last
+  // one into the gap.
+  int node_at(int position) const { return nodes_[static_cast<std::size_t>(position)]; }
+  PriorityKey key_at(int position) const { return keys_[static_cast<std::size_t>(position)]; }
+
   void clear();
   void insert(const PriorityFrame& frame, int node, int x, int y, int level);
   void erase(int node);  // must be a member

@@ -1,6 +1,7 @@
 #include "lod/roam.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -21,6 +22,38 @@ bool is_over(const AdaptLimits& limits, int operations, int step) {
          Clock::now() >= limits.deadline;
 }
 
+bool is_limited(const AdaptLimits& limits) {
+  return limits.max_operations != AdaptLimits{}.max_operations ||
+         limits.deadline != AdaptLimits{}.deadline || limits.priority_groups > 1;
+}
+
+PriorityKey scaled(PriorityKey key, float factor) {
+  if (key >= kCulledKey) return key;
+  return std::bit_cast<PriorityKey>(std::min(std::bit_cast<float>(key) * factor, kLastKey));
+}
+
+// Where most would be merged, as after a turn of the camera: begins at the two root triangles, and
+// splits in no order what lies clearly before where the last target ended, so that move_to_target()
+// has few left to order.
+AdaptStatistics begin_anew(Roam::Tree& tree, int budget) {
+  Queue &splits = tree.split_queue, &merges = tree.merge_queue;
+  int leaving = 0;
+  for (int i = 0; i < merges.size(); ++i) leaving += merges.key_at(i) >= tree.border;
+  if (2 * leaving <= merges.size()) return {};
+  reset_tree(tree);
+  AdaptStatistics done = {.anew = true};
+  const PriorityKey clearly = std::min(scaled(tree.border, 0.95f), tree.frame.end_key);
+  for (int i = 0; i < splits.size() && tree.triangles + 2 <= budget;) {
+    if (splits.key_at(i) >= clearly) {
+      ++i;
+      continue;
+    }
+    split(tree, splits.node_at(i));
+    ++done.splits;
+  }
+  return done;
+}
+
 // The target is the longest prefix of the total order of diamonds (highest priority first, then
 // level, then place) that keeps the budget and holds no diamond of priority 0. Parents come before
 // children in that order, so every prefix is a valid mesh, the best diamond that is not split is
@@ -31,11 +64,13 @@ bool is_over(const AdaptLimits& limits, int operations, int step) {
 // merged was the last of all split ones, and these with the best unsplit one do not fit together,
 // so no prefix that keeps the budget reaches to it.
 //
+// After begin_anew() each moves at most twice.
+//
 // With groups of priorities some keys are old. An operation renews those of the diamonds it
 // touches, and among renewed ones the above holds: each moves at most twice.
-AdaptStatistics move_to_target(Roam::Tree& tree, int budget, const AdaptLimits& limits) {
-  AdaptStatistics done;
-  const int operation_cap = (limits.priority_groups > 1 ? 4 : 2) * tree.max_triangles;
+AdaptStatistics move_to_target(Roam::Tree& tree, int budget, const AdaptLimits& limits,
+                               AdaptStatistics done) {
+  const int operation_cap = 4 * tree.max_triangles;
   for (int step = 1;; ++step) {
     const std::optional<QueueMember> best = tree.split_queue.first();
     const bool wanted = best && best->key < tree.frame.end_key;
@@ -62,11 +97,14 @@ AdaptStatistics move_to_target(Roam::Tree& tree, int budget, const AdaptLimits& 
 
 // Where the diamonds that are not split begin. Of a mesh that is not finished, where those that are
 // split end.
-double reach_of(Roam::Tree& tree, bool stopped) {
+PriorityKey border_of(Roam::Tree& tree, bool stopped) {
   const std::optional<QueueMember> border =
       stopped ? tree.merge_queue.first() : tree.split_queue.first();
-  if (!border) return std::numeric_limits<double>::infinity();
-  const double steps = distance_of_largest(tree.frame, border->key);
+  return border ? border->key : kCulledKey;
+}
+
+double reach_of(const Roam::Tree& tree) {
+  const double steps = distance_of_largest(tree.frame, tree.border);
   return std::max(steps, 1.0) * tree.domain.step_m();
 }
 
@@ -105,6 +143,7 @@ void Roam::set_domain(const Domain& domain) {
   if (old.lattice_bits == domain.lattice_bits && old.size_m == domain.size_m) return;
   tree_->frame = {};
   tree_->frame.lattice_bits = domain.lattice_bits;
+  tree_->border = kCulledKey;
   reset_tree(*tree_);
 }
 
@@ -116,8 +155,12 @@ AdaptStatistics Roam::adapt(const AdaptRequest& request) {
               request.limits.priority_groups);
   set_priorities(*tree_, make_priority_frame(request, tree_->domain),
                  request.limits.priority_groups);
-  AdaptStatistics done = move_to_target(*tree_, request.triangle_budget, request.limits);
-  done.reach_m = reach_of(*tree_, done.stopped);
+  const bool limited = is_limited(request.limits);
+  const AdaptStatistics begun =
+      limited ? AdaptStatistics{} : begin_anew(*tree_, request.triangle_budget);
+  AdaptStatistics done = move_to_target(*tree_, request.triangle_budget, request.limits, begun);
+  tree_->border = border_of(*tree_, done.stopped);
+  done.reach_m = reach_of(*tree_);
   return done;
 }
 

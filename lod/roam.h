@@ -28,6 +28,7 @@ struct Domain {
 
 struct AdaptStatistics {
   int triangles = 0, splits = 0, merges = 0;
+  bool anew = false;               // from the two root triangles
   bool stopped = false;            // at one of the request's limits, with work left
   bool operation_cap_hit = false;  // must never be true; tests require it
   // Out to here, in metres from the eye, > 0, no triangle in view is wider than the request's

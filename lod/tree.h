@@ -39,8 +39,9 @@ struct Roam::Tree {
   int max_triangles;
   int triangles = 2;  // leaves
   int split_count = 0;
-  std::uint64_t revision = 0;  // counts resets, splits and merges: from 1
-  PriorityFrame frame;         // of the last request: what the keys in the queues mean
+  std::uint64_t revision = 0;       // counts resets, splits and merges: from 1
+  PriorityFrame frame;              // of the last request: what the keys in the queues mean
+  PriorityKey border = kCulledKey;  // of the first diamond that it left whole
 
   // 2 max_triangles nodes always suffice: at most one node that is not split per leaf, and fewer
   // split ones than leaves, for each split adds a leaf.
