@@ -57,6 +57,17 @@ FrameMotion motion_between(const FramePose& before, const FramePose& now, const 
   return motion;
 }
 
+FrameMotion motion_behind(const FramePose& before_2h, const FramePose& before_h,
+                          const FramePose& now, double h_s) {
+  FrameMotion motion = motion_between(before_2h, before_h, now, h_s);
+  motion.velocity_mps += h_s * motion.acceleration_mps2;
+  // Means of the two steps, and on by half of what they differ.
+  const glm::dvec3 last = motion_between(before_h, before_h, now, 0.5 * h_s).turn_rad_s;
+  const glm::dvec3 first = motion_between(before_2h, before_2h, before_h, 0.5 * h_s).turn_rad_s;
+  motion.turn_rad_s = last + 0.5 * (last - first);
+  return motion;
+}
+
 msg::Vector3 vector_message(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 msg::Quaternion quaternion_message(const glm::dmat3& axes) {

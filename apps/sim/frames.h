@@ -1,6 +1,7 @@
 // Where bodies and sensors are: frames of ROS, as rigs have them (scene/file/rig.h).
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "apps/messages/messages.h"
@@ -35,6 +36,15 @@ struct FrameMotion {
 };
 FrameMotion motion_between(const FramePose& before, const FramePose& now, const FramePose& after,
                            double h_s);
+
+// As it moves at `now`, from it and its poses a time h and 2 h before. The acceleration is that of
+// h before.
+FrameMotion motion_behind(const FramePose& before_2h, const FramePose& before_h,
+                          const FramePose& now, double h_s);
+
+// A time h: 0.2 % off in a wave of 3 s, and heights' last bits give less than 0.001 m/s^2. A
+// multiple of common periods, whose water is there already.
+inline constexpr std::int64_t kMotionStep_ns = 40'000'000;
 
 // Their words in messages.
 msg::Vector3 vector_message(const glm::dvec3& v);

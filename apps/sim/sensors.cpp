@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "apps/sim/camera.h"
 #include "apps/sim/geodetic.h"
@@ -18,10 +19,6 @@ using scene::Sensor;
 using scene::SensorKind;
 
 constexpr const char *kMap = "map", *kOdom = "odom";
-// Between poses that accelerations and rates of turn are worked out of: 0.2 % off in a wave of 3 s,
-// and heights' last bits give less than 0.001 m/s^2. A multiple of common periods, whose water is
-// there already.
-constexpr std::int64_t kMotionStep_ns = 40'000'000;
 
 std::string topic_name(const Sensor& sensor, const char* more = "") {
   return "/" + sensor.name + more;
@@ -31,9 +28,18 @@ msg::Header sensor_header(const Sensor& sensor, const Moment& moment) {
   return {moment.stamp(), sensor_frame(sensor)};
 }
 
-// The motion in "map" of what `pose_at` places.
+// The motion in "map" of what `pose_at` places, on a body or on none. Of a body whose poses come
+// from outside it is worked out of those that have come; nothing while there are too few.
 template <class PoseAt>
-FrameMotion motion_of(const PoseAt& pose_at, const Moment& moment) {
+std::optional<FrameMotion> motion_of(const SimWorld& world, const RigBody* body,
+                                     const PoseAt& pose_at, const Moment& moment) {
+  if (body && body->is_input) {
+    const auto window = world.motion_window(*body, moment);
+    if (!window) return std::nullopt;
+    const auto [end, step_ns] = *window;
+    return motion_behind(pose_at({end.t_ns - 2 * step_ns}), pose_at({end.t_ns - step_ns}),
+                         pose_at(end), static_cast<double>(step_ns) / 1e9);
+  }
   const Moment before = {moment.t_ns - kMotionStep_ns}, after = {moment.t_ns + kMotionStep_ns};
   return motion_between(pose_at(before), pose_at(moment), pose_at(after),
                         static_cast<double>(kMotionStep_ns) / 1e9);
@@ -81,13 +87,14 @@ Publish imu(const Sensor& sensor, SimWorld& world, Simulation& simulation) {
   return [&sensor, &world, topic](const Moment& moment, const Emit& emit) {
     const auto pose_at = [&](const Moment& at) { return world.sensor_at(sensor, at); };
     const FramePose pose = pose_at(moment);
-    const FrameMotion motion = motion_of(pose_at, moment);
+    const auto motion = motion_of(world, world.rig().find_body(sensor.body), pose_at, moment);
+    if (!motion) return;
     const double gravity_mps2 = world.world().scene().sea.gravity_mps2;
-    const glm::dvec3 felt = motion.acceleration_mps2 + glm::dvec3(0.0, 0.0, gravity_mps2);
+    const glm::dvec3 felt = motion->acceleration_mps2 + glm::dvec3(0.0, 0.0, gravity_mps2);
     msg::Imu message;
     message.header = sensor_header(sensor, moment);
     message.orientation = quaternion_message(pose.axes);
-    message.angular_velocity = vector_message(motion.turn_rad_s);
+    message.angular_velocity = vector_message(motion->turn_rad_s);
     message.linear_acceleration = vector_message(glm::transpose(pose.axes) * felt);
     emit(topic, message);
   };
@@ -114,13 +121,14 @@ Publish odometry(const Sensor& sensor, SimWorld& world, Simulation& simulation) 
   return [&body, &world, topic](const Moment& moment, const Emit& emit) {
     const auto pose_at = [&](const Moment& at) { return world.body_at(body, at); };
     const FramePose pose = pose_at(moment);
-    const FrameMotion motion = motion_of(pose_at, moment);
+    const auto motion = motion_of(world, &body, pose_at, moment);
+    if (!motion) return;
     msg::Odometry message;
     message.header = {moment.stamp(), kOdom};
     message.child_frame_id = body.frame;
     message.pose.pose = pose_message(pose);
-    message.twist.twist = {vector_message(glm::transpose(pose.axes) * motion.velocity_mps),
-                           vector_message(motion.turn_rad_s)};
+    message.twist.twist = {vector_message(glm::transpose(pose.axes) * motion->velocity_mps),
+                           vector_message(motion->turn_rad_s)};
     emit(topic, message);
   };
 }
@@ -145,6 +153,14 @@ constexpr auto kMakers = enum_table<SensorKind, Maker>({
     {SensorKind::kOdometry, odometry},
     {SensorKind::kPose, pose_sensor},
 });
+
+// What is on a body publishes nothing while its pose is not known.
+Publish once_known(const RigBody* body, const SimWorld& world, Publish publish) {
+  if (!body || !body->is_input) return publish;
+  return [body, &world, publish = std::move(publish)](const Moment& moment, const Emit& emit) {
+    if (world.knows(*body, moment)) publish(moment, emit);
+  };
+}
 
 // ---- Frames and the clock
 
@@ -184,12 +200,12 @@ void add_frames(SimWorld& world, Simulation& simulation) {
   for (const RigBody& body : world.rig().bodies) {
     if (!body.moves()) continue;
     const std::size_t topic = simulation.topic("/tf", msg::TFMessage::kType);
+    const auto publish = [&world, &body, topic](const Moment& moment, const Emit& emit) {
+      emit(topic, msg::TFMessage{{transform_message(moment.stamp(), kOdom, body.frame,
+                                                    world.body_at(body, moment))}});
+    };
     simulation.sources.push_back(
-        {body.frame, "body", body.rate_hz,
-         [&world, &body, topic](const Moment& moment, const Emit& emit) {
-           emit(topic, msg::TFMessage{{transform_message(moment.stamp(), kOdom, body.frame,
-                                                         world.body_at(body, moment))}});
-         }});
+        {body.frame, "body", body.rate_hz, once_known(&body, world, publish)});
   }
 }
 
@@ -201,7 +217,8 @@ Simulation make_simulation(SimWorld& world) {
   add_clock(rig, simulation);
   add_frames(world, simulation);
   for (const Sensor& sensor : rig.sensors) {
-    Publish publish = kMakers[sensor.kind](sensor, world, simulation);
+    Publish publish = once_known(rig.find_body(sensor.body), world,
+                                 kMakers[sensor.kind](sensor, world, simulation));
     simulation.sources.push_back(
         {sensor.name, scene::kSensorKinds[sensor.kind].name, sensor.rate_hz, std::move(publish)});
   }

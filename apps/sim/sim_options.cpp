@@ -1,9 +1,13 @@
 #include "apps/sim/sim_options.h"
 
+#include <limits>
+
 #include "apps/shared/options.h"
 
 namespace swell::apps {
 namespace {
+
+constexpr double kNotGiven_s = 0.0;
 
 void check_together(const SimOptions& options) {
   if (options.rig_keys) return;
@@ -12,6 +16,13 @@ void check_together(const SimOptions& options) {
   if (options.rig.empty()) throw OptionError("command line: --rig, got none, allowed --rig FILE");
   if (options.record.empty() && !options.measure)
     throw OptionError("command line: got nothing to do, allowed --record or --measure");
+  if (options.run.is_clock_input && !options.takes_inputs())
+    throw OptionError("command line: --clock: got input without --inputs, allowed with it");
+  if (options.run.is_clock_input && options.run.realtime)
+    throw OptionError("command line: --realtime: got --clock input with it, allowed --clock own");
+  if (options.takes_inputs() && !options.run.is_clock_input && !options.run.realtime)
+    throw OptionError(
+        "command line: --inputs: got neither --clock input nor --realtime, allowed one of them");
 }
 
 }  // namespace
@@ -24,12 +35,26 @@ std::optional<SimOptions> parse_sim_options(int argc, char** argv) {
   line.add_texts("--rig-set", "KEY=VALUE", options.rig_settings, "As --set, of the rig");
   line.add_flag("--rig-keys", options.rig_keys, "Print the keys of rigs");
   line.add_text("--record", "FILE", options.record, "Write ROS 2 messages: .mcap");
-  add_number(line, "--duration", options.duration_s, 1e-3, 1e6, "Seconds, from 0 on");
-  line.add_flag("--realtime", options.realtime, "Wait for each stamp");
+  options.run.duration_s = kNotGiven_s;
+  add_number(line, "--duration", options.run.duration_s, 1e-3, 1e6,
+             "Seconds, from 0 on: 10; endless with --clock input");
+  line.add_flag("--realtime", options.run.realtime, "Wait for each stamp");
+  line.add_value({"--clock", "CLOCK", "own", "own, or input: lock-step with --inputs",
+                  [&options](const std::string& text) {
+                    if (text != "own" && text != "input")
+                      throw OptionError("command line: --clock: got '" + text +
+                                        "', allowed own or input");
+                    options.run.is_clock_input = text == "input";
+                  }});
+  line.add_text("--inputs", "FILE", options.inputs,
+                "Clock and poses (--rig-keys); - is standard input");
   line.add_flag("--measure", options.measure, "Print what each sensor costs");
   add_machine_options(line, options.threads, options.simd);
   if (!line.parse(argc, argv)) return std::nullopt;
   check_together(options);
+  if (options.run.duration_s == kNotGiven_s)
+    options.run.duration_s =
+        options.run.is_clock_input ? std::numeric_limits<double>::infinity() : 10.0;
   return options;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/shared/notices.h"
+#include "apps/sim/run.h"
 #include "math/parallel.h"
 
 namespace swell::apps {
@@ -15,10 +16,13 @@ struct SimOptions {
   std::string rig;  // file
   std::vector<std::string> rig_settings;
   std::string record;  // file; empty: none
-  double duration_s = 10.0;
-  bool realtime = false, measure = false, rig_keys = false;
+  std::string inputs;  // file, "-" or empty: none
+  RunSettings run;
+  bool measure = false, rig_keys = false;
   int threads = available_cpus();
   std::string simd;
+
+  bool takes_inputs() const { return !inputs.empty(); }
 };
 
 // Nothing if --help or --version was asked for. Throws OptionError.

@@ -9,8 +9,9 @@
 
 namespace swell::apps {
 
-SimWorld::SimWorld(const render::World& world, const scene::Rig& rig, Workers& workers)
-    : world_(world), rig_(rig), workers_(workers), water_(world.water()) {}
+SimWorld::SimWorld(const render::World& world, const scene::Rig& rig, Workers& workers,
+                   const InputPoses* inputs)
+    : world_(world), rig_(rig), workers_(workers), inputs_(inputs), water_(world.water()) {}
 
 const ocean::WaterSurface& SimWorld::water_at(const Moment& moment) {
   for (const KeptWater& kept : kept_)
@@ -22,7 +23,17 @@ const ocean::WaterSurface& SimWorld::water_at(const Moment& moment) {
   return *kept.surface;
 }
 
+bool SimWorld::knows(const scene::RigBody& body, const Moment& moment) const {
+  return !body.is_input || (inputs_ && inputs_->at(body.frame, moment));
+}
+
+std::optional<InputPoses::Window> SimWorld::motion_window(const scene::RigBody& body,
+                                                          const Moment& moment) const {
+  return inputs_ ? inputs_->motion_window(body.frame, moment) : std::nullopt;
+}
+
 FramePose SimWorld::body_at(const scene::RigBody& body, const Moment& moment) {
+  if (body.is_input) return inputs_->at(body.frame, moment).value();
   const double t_s = moment.t_s();
   if (body.position_m)
     return heading_pose({t_s, *body.position_m, body.heading_rad, body.pitch_rad, body.roll_rad});

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "apps/sim/frames.h"
+#include "apps/sim/input_poses.h"
 #include "apps/sim/simulation.h"
 #include "math/parallel.h"
 #include "ocean/open_sea/sea.h"
@@ -22,8 +23,10 @@ namespace swell::apps {
 // Answers depend on the world, the rig and the time alone. Used by one thread at a time.
 class SimWorld {
  public:
-  // All of these have to outlive it; check_mounts() passes the rig.
-  SimWorld(const render::World& world, const scene::Rig& rig, Workers& workers);
+  // All of these have to outlive it; check_mounts() passes the rig. `inputs` has the poses of
+  // bodies that come from outside; one without it never has a pose.
+  SimWorld(const render::World& world, const scene::Rig& rig, Workers& workers,
+           const InputPoses* inputs = nullptr);
 
   SimWorld(const SimWorld&) = delete;
   SimWorld& operator=(const SimWorld&) = delete;
@@ -35,7 +38,14 @@ class SimWorld {
   // The water at a time. It stays until kKept other times have been asked for.
   const ocean::WaterSurface& water_at(const Moment& moment);
 
-  // In "map": of a body, and of a sensor.
+  // Whether a body's pose at a moment is known. Those from outside are from the first one on.
+  bool knows(const scene::RigBody& body, const Moment& moment) const;
+
+  // When a body's poses from outside are to be differenced (input_poses.h).
+  std::optional<InputPoses::Window> motion_window(const scene::RigBody& body,
+                                                  const Moment& moment) const;
+
+  // In "map": of a body, and of a sensor. Their body's pose is known.
   FramePose body_at(const scene::RigBody& body, const Moment& moment);
   FramePose sensor_at(const scene::Sensor& sensor, const Moment& moment);
 
@@ -55,6 +65,7 @@ class SimWorld {
   const render::World& world_;
   const scene::Rig& rig_;
   Workers& workers_;
+  const InputPoses* inputs_;
   scene::Water water_;
   std::array<KeptWater, kKept> kept_;
   std::size_t next_ = 0;  // of them to be used again

@@ -22,14 +22,22 @@ std::int64_t stamp_ns(std::int64_t k, double rate_hz) {
   return std::llround(static_cast<double>(k) * 1e9 / rate_hz);
 }
 
-Schedule::Schedule(const std::vector<Source>& sources, double duration_s)
-    : duration_ns_(std::llround(duration_s * 1e9)) {
-  for (const Source& source : sources) lines_.push_back({source.rate_hz, 0, 0});
+Schedule::Schedule(const std::vector<Source>& sources, double duration_s, std::int64_t first_ns)
+    : end_ns_(duration_s < 1e9 ? first_ns + std::llround(duration_s * 1e9) : kNever) {
+  for (const Source& source : sources) {
+    Line line = {source.rate_hz, 0, first_ns};
+    if (source.rate_hz > 0.0) {
+      line.k = std::max<std::int64_t>(
+          0, std::llround(static_cast<double>(first_ns) / 1e9 * source.rate_hz) - 1);
+      while ((line.stamp_ns = stamp_ns(line.k, source.rate_hz)) < first_ns) ++line.k;
+    }
+    lines_.push_back(line);
+  }
 }
 
-bool Schedule::next(Due& due) {
+bool Schedule::next(Due& due, std::int64_t last_ns) {
   const auto line = std::ranges::min_element(lines_, {}, &Line::stamp_ns);
-  if (line == lines_.end() || line->stamp_ns >= duration_ns_) return false;
+  if (line == lines_.end() || line->stamp_ns >= end_ns_ || line->stamp_ns > last_ns) return false;
   due = {static_cast<std::size_t>(line - lines_.begin()), line->stamp_ns};
   line->stamp_ns = line->rate_hz > 0.0 ? stamp_ns(++line->k, line->rate_hz) : kNever;
   return true;

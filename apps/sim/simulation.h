@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,7 +47,8 @@ struct Simulation {
 // The time that message k of a source is stamped with, to the nearest nanosecond.
 std::int64_t stamp_ns(std::int64_t k, double rate_hz);
 
-// Which source is due next: all messages with stamps below the duration, in the order of stamps.
+// Which source is due next: all messages with stamps from `first_ns` on and below a duration
+// later, in the order of stamps. What is published once is due at first_ns.
 class Schedule {
  public:
   struct Due {
@@ -54,10 +56,13 @@ class Schedule {
     std::int64_t stamp_ns = 0;
   };
 
-  Schedule(const std::vector<Source>& sources, double duration_s);
+  Schedule(const std::vector<Source>& sources, double duration_s, std::int64_t first_ns = 0);
 
-  // False at the end.
-  bool next(Due& due);
+  // False at the end, and where nothing more is due up to `last_ns`.
+  bool next(Due& due, std::int64_t last_ns = std::numeric_limits<std::int64_t>::max());
+
+  // Whether all before this time is all there is.
+  bool ends_at(std::int64_t t_ns) const { return t_ns >= end_ns_; }
 
  private:
   struct Line {
@@ -65,7 +70,7 @@ class Schedule {
     std::int64_t k, stamp_ns;
   };
   std::vector<Line> lines_;
-  std::int64_t duration_ns_;
+  std::int64_t end_ns_;
 };
 
 }  // namespace swell::apps

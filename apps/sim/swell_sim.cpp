@@ -1,15 +1,18 @@
 // swell-sim: runs the sensors of a rig in a scene.
 #include <fmt/core.h>
 
-#include <chrono>
+#include <atomic>
+#include <csignal>
 #include <memory>
-#include <thread>
+#include <vector>
 
 #include "apps/mcap/mcap_output.h"
 #include "apps/shared/options.h"
 #include "apps/shared/output_file.h"
 #include "apps/shared/program.h"
 #include "apps/sim/costs.h"
+#include "apps/sim/json_inputs.h"
+#include "apps/sim/run.h"
 #include "apps/sim/sensors.h"
 #include "apps/sim/sim_options.h"
 #include "apps/sim/sim_world.h"
@@ -18,61 +21,70 @@
 namespace swell::apps {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+std::atomic<bool> is_signalled = false;
 
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+// From now on they end a run in order; a second one ends the program, and one that is ignored
+// (nohup) stays so.
+void take_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const auto end = [](int number) {
+      is_signalled = true;
+      std::signal(number, SIG_DFL);
+    };
+    if (std::signal(signal, end) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
 }
 
-// Publishes all messages in the order of their stamps; without an output they are only made.
-Costs run_schedule(const SimOptions& options, const Simulation& simulation, MessageOutput* output) {
-  Costs costs;
-  costs.sources.resize(simulation.sources.size());
-  costs.duration_s = options.duration_s;
-  Schedule schedule(simulation.sources, options.duration_s);
-  const Clock::time_point start = Clock::now();
-  for (Schedule::Due due; schedule.next(due);) {
-    const Clock::time_point stamp = start + std::chrono::nanoseconds(due.stamp_ns);
-    if (options.realtime) std::this_thread::sleep_until(stamp);
-    const double output_before_ms = costs.output.sum_ms;
-    const Clock::time_point begin = Clock::now();
-    const auto emit = [&](std::size_t topic, const msg::Message& message) {
-      if (!output) return;
-      const Clock::time_point given = Clock::now();
-      output->write(topic, due.stamp_ns, message);
-      costs.output.add(ms_since(given));
-    };
-    simulation.sources[due.source].publish({due.stamp_ns}, emit);
-    costs.sources[due.source].add(ms_since(begin) - (costs.output.sum_ms - output_before_ms));
-    if (options.realtime) costs.late_ms.push_back(ms_since(stamp));
-  }
-  if (output) output->finish();
-  costs.wall_s = ms_since(start) / 1e3;
-  return costs;
+std::vector<std::string> input_frames(const scene::Rig& rig) {
+  std::vector<std::string> frames;
+  for (const scene::RigBody& body : rig.bodies)
+    if (body.is_input) frames.push_back(body.frame);
+  return frames;
+}
+
+// A rig's body whose pose comes from outside, while nothing can.
+void check_inputs(const SimOptions& options, const scene::Rig& rig) {
+  for (std::size_t n = 0; n < rig.bodies.size(); ++n)
+    if (rig.bodies[n].is_input && !options.takes_inputs())
+      scene::refuse_key(rig, fmt::format("body[{}].pose", n),
+                        "got \"input\" without --inputs, allowed with it");
 }
 
 void run(const SimOptions& options) {
   if (options.rig_keys) {
-    fmt::print("{}", scene::rig_keys_text());
+    fmt::print("{}{}", scene::rig_keys_text(), kJsonInputsText);
     return;
   }
   select_simd(options.simd);
   if (!options.record.empty()) check_output_place(options.record);  // before the world is made
-  const scene::Rig rig = scene::load_rig(options.rig, options.rig_settings);
+  scene::Rig rig = scene::load_rig(options.rig, options.rig_settings);
+  check_inputs(options, rig);
+  if (options.run.is_clock_input) rig.clock_hz = 0.0;  // another publishes it
   scene::Scene scene = load_scene(options.scene);
   scene::check_mounts(rig, scene);
   const render::World world(std::move(scene), options.threads);
   Workers workers(options.threads);
-  SimWorld sim_world(world, rig, workers);
+  Inputs inputs(input_frames(rig));
+  InputPoses poses;
+  SimWorld sim_world(world, rig, workers, &poses);
   const Simulation simulation = make_simulation(sim_world);
-  std::unique_ptr<MessageOutput> output;
+
+  std::vector<std::unique_ptr<MessageOutput>> outputs;
   if (!options.record.empty())
-    output = std::make_unique<McapOutput>(options.record, simulation.topics);
-  const Costs costs = run_schedule(options, simulation, output.get());
+    outputs.push_back(std::make_unique<McapOutput>(options.record, simulation.topics));
+  std::vector<std::unique_ptr<InputSource>> sources;
+  if (!options.inputs.empty())
+    sources.push_back(std::make_unique<JsonInputs>(options.inputs, inputs));
+
+  take_signals();
+  std::vector<MessageOutput*> all_outputs;
+  for (const auto& output : outputs) all_outputs.push_back(output.get());
+  const Costs costs = run_simulation(simulation, options.run, all_outputs, inputs, poses,
+                                     [] { return is_signalled.load(); });
   if (options.measure) fmt::print("{}", cost_table(simulation, costs));
-  if (output)
+  if (!options.record.empty())
     fmt::print("{}: {} messages of {} topics, {} s\n", options.record, costs.output.count,
-               simulation.topics.size(), options.duration_s);
+               simulation.topics.size(), costs.duration_s);
 }
 
 }  // namespace

@@ -173,11 +173,14 @@ class RigReader {
       const RigBody& body = rig_.bodies[n];
       const std::string key = fmt::format("{}[{}]", kBodiesKey, n);
       check_name(key + ".frame", body.frame, taken);
-      const int poses = !body.mount.empty() + body.position_m.has_value() + !body.path.empty();
+      const int poses =
+          !body.mount.empty() + body.position_m.has_value() + !body.path.empty() + body.is_input;
       if (poses != 1)
-        refuse_key(rig_, key,
-                   fmt::format("got {}, allowed one of mount, position_m and [[body.path]]",
-                               poses == 0 ? "no pose" : "several poses"));
+        refuse_key(
+            rig_, key,
+            fmt::format(
+                "got {}, allowed one of mount, position_m, [[body.path]] and pose = \"input\"",
+                poses == 0 ? "no pose" : "several poses"));
       for (std::size_t i = 1; i < body.path.size(); ++i)
         if (!(body.path[i].t_s > body.path[i - 1].t_s))
           refuse_key(rig_, fmt::format("{}.{}[{}].t_s", key, kBodyPathKey, i),

@@ -10,6 +10,11 @@ namespace {
 #define SWELL_FIELD(PATH) \
   [](auto& object) -> auto& { return object.PATH; }
 
+struct PoseName {
+  static constexpr auto words = enum_words<bool>({{false, "rig"}, {true, "input"}});
+  auto& operator()(auto& body) const { return body.is_input; }
+};
+
 using SensorRow = Row<Sensor>;
 using Keys = std::vector<Parameter<Sensor>>;
 
@@ -93,6 +98,11 @@ std::vector<Parameter<RigBody>> body_parameters() {
       BodyRow::angle("pitch_deg", {-89, 89, "deg"}, SWELL_FIELD(pitch_rad), "there: up positive"),
       BodyRow::angle("roll_deg", {-180, 180, "deg"}, SWELL_FIELD(roll_rad),
                      "there: positive lowers its right side"),
+      BodyRow::choice(
+          "pose", PoseName{},
+          "\"input\": it comes from outside (swell-sim --inputs) as \"map\" has it, and "
+          "sensors on the body wait for the first one; their IMU and odometry are of "
+          "differences of the last poses, 40 ms apart or as far as poses are"),
   };
 }
 
@@ -175,8 +185,8 @@ std::string keys_text(std::string_view table, const std::vector<Parameter<Object
 std::string rig_keys_text() {
   std::string text = "The keys of rigs: what is allowed [default]: meaning\n";
   text += keys_text("at the top", rig_parameters(), Rig());
-  text += keys_text("[[body]]: one of mount, position_m and [[body.path]]", body_parameters(),
-                    RigBody());
+  text += keys_text("[[body]]: one of mount, position_m, [[body.path]] and pose = \"input\"",
+                    body_parameters(), RigBody());
   text += keys_text("[[body.path]]", body_path_parameters(), common_waypoint());
   for (std::size_t k = 0; k < kSensorKinds.size(); ++k) {
     const auto kind = static_cast<SensorKind>(k);

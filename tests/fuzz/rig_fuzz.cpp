@@ -14,7 +14,8 @@ void read_rig(std::string_view text) {
   try {
     const scene::Rig rig = scene::parse_rig(text, "rig.toml", {});
     for (const scene::RigBody& body : rig.bodies)
-      expect(!body.mount.empty() || body.position_m || !body.path.empty(), "a body has a pose");
+      expect(!body.mount.empty() || body.position_m || body.is_input || !body.path.empty(),
+             "a body has a pose");
     for (const scene::Sensor& sensor : rig.sensors)
       expect(sensor.rate_hz > 0.0 && sensor.width_px > 0 && sensor.distortion.size() == 5,
              "a sensor has its values");

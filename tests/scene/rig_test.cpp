@@ -86,10 +86,10 @@ INSTANTIATE_TEST_SUITE_P(
                      "rig.toml:2: column 16: origin.latitude_deg, got 91, allowed -90 to 90 deg"},
         RigFaultCase{"\n[[body]]\n",
                      "rig.toml:2: column 1: body[0], got no pose, allowed one of mount, "
-                     "position_m and [[body.path]]"},
+                     "position_m, [[body.path]] and pose = \"input\""},
         RigFaultCase{"[[body]]\nmount = \"a\"\nposition_m = [1, 2, 3]\n",
                      "rig.toml:1: column 1: body[0], got several poses, allowed one of mount, "
-                     "position_m and [[body.path]]"},
+                     "position_m, [[body.path]] and pose = \"input\""},
         RigFaultCase{std::string(kBody) + kBody,
                      "rig.toml:3: column 1: body[1].frame, got \"base_link\" twice, allowed once"},
         RigFaultCase{"[[body]]\nposition_m = [1, 2, 3]\nframe = \"odom\"\n",
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
         RigFaultCase{"[[body]]\nposition_m = [1, 2, 3]\nheadng_deg = 2\n",
                      "rig.toml:3: column 1: unknown key, got 'body[0].headng_deg' (did you mean "
                      "'heading_deg'?), allowed frame, rate_hz, mount, position_m, heading_deg, "
-                     "pitch_deg, roll_deg, path"},
+                     "pitch_deg, roll_deg, pose, path"},
         RigFaultCase{"[[body]]\n[[body.path]]\nt_s = 1\n[[body.path]]\nt_s = 1\n",
                      "rig.toml:5: column 7: body[0].path[1].t_s, got 1 after 1, allowed later "
                      "times"},

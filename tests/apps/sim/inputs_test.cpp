@@ -1,0 +1,430 @@
+// Clocks and poses from outside: what becomes of good ones, and what is said of bad ones.
+#include "apps/sim/inputs.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "apps/messages/cdr.h"
+#include "apps/sim/json_inputs.h"
+#include "apps/sim/run.h"
+#include "apps/sim/sensors.h"
+#include "apps/sim/sim_world.h"
+#include "math/elementary.h"
+#include "render/world/world.h"
+
+namespace swell::apps {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr InputOrigin kHere{"/here"};
+constexpr auto kNever = [] { return false; };
+
+StampedPose pose_of(std::int64_t stamp_ns, const glm::dvec3& position_m, double yaw_rad = 0.0) {
+  return {stamp_ns, position_m, {std::cos(0.5 * yaw_rad), 0.0, 0.0, std::sin(0.5 * yaw_rad)}};
+}
+
+// ---- Kept poses
+
+TEST(InputPoses, BetweenTwoLieOnTheLineAndTheShorterTurn) {
+  InputPoses poses;
+  poses.add("boat", pose_of(200 * kMs, {4, 0, 2}, radians(100.0)));
+  poses.add("boat", pose_of(100 * kMs, {0, 8, 2}, radians(10.0)));
+  poses.set_horizon({1000 * kMs});
+  const auto at = poses.at("boat", {125 * kMs});
+  ASSERT_TRUE(at);
+  EXPECT_NEAR(glm::length(at->position_m - glm::dvec3(1, 6, 2)), 0.0, 1e-12);
+  EXPECT_NEAR(std::atan2(at->axes[0].y, at->axes[0].x), radians(32.5), 1e-12);
+  // The same orientation with the other sign turns no farther.
+  StampedPose other = pose_of(200 * kMs, {4, 0, 2}, radians(100.0));
+  other.orientation = -other.orientation;
+  poses.add("boat", other);
+  EXPECT_NEAR(std::atan2(poses.at("boat", {125 * kMs})->axes[0].y, at->axes[0].x), radians(32.5),
+              1e-12);
+}
+
+TEST(InputPoses, AreNotExtrapolated) {
+  InputPoses poses;
+  poses.add("boat", pose_of(100 * kMs, {1, 0, 0}));
+  poses.add("boat", pose_of(200 * kMs, {2, 0, 0}));
+  poses.set_horizon({1000 * kMs});
+  EXPECT_FALSE(poses.at("boat", {99 * kMs}));
+  EXPECT_FALSE(poses.at("ship", {500 * kMs}));
+  EXPECT_EQ(poses.at("boat", {900 * kMs})->position_m.x, 2.0);
+  poses.set_horizon({150 * kMs});  // the second one is not known yet
+  EXPECT_EQ(poses.at("boat", {150 * kMs})->position_m.x, 1.0);
+}
+
+TEST(InputPoses, AreKeptInBoundedNumbers) {
+  InputPoses poses;
+  for (std::int64_t k = 0; k < 30'000; ++k) {
+    poses.add("boat", pose_of(k * kMs, {static_cast<double>(k), 0, 0}));
+    poses.set_horizon({k * kMs});
+  }
+  EXPECT_EQ(poses.at("boat", {29'999 * kMs})->position_m.x, 29'999.0);
+  EXPECT_EQ(poses.at("boat", {20'000 * kMs})->position_m.x, 20'000.0);
+  EXPECT_FALSE(poses.at("boat", {15'000 * kMs}));
+}
+
+TEST(InputPoses, OnACircleMoveAsItsFormulasSay) {
+  constexpr double kRadius = 20.0, kRate = 0.3;
+  const auto place = [](double t) {
+    return kRadius * glm::dvec3(std::cos(kRate * t), std::sin(kRate * t), 0.0);
+  };
+  for (const std::int64_t period : {5 * kMs, 20 * kMs, 100 * kMs}) {
+    InputPoses poses;
+    for (std::int64_t t = 0; t <= 2000 * kMs; t += period)
+      poses.add("boat", pose_of(t, place(Moment{t}.t_s()), kRate * Moment{t}.t_s() + 0.5 * kPi));
+    poses.set_horizon({2000 * kMs});
+    const auto window = poses.motion_window("boat", {2000 * kMs});
+    ASSERT_TRUE(window);
+    EXPECT_EQ(window->step_ns, std::max(period, kMotionStep_ns));
+    const auto pose = [&](std::int64_t steps) {
+      return *poses.at("boat", {window->end.t_ns - steps * window->step_ns});
+    };
+    const double h_s = Moment{window->step_ns}.t_s();
+    const FrameMotion motion = motion_behind(pose(2), pose(1), pose(0), h_s);
+    const glm::dvec3 velocity = kRate * glm::dvec3(-place(2.0).y, place(2.0).x, 0.0);
+    EXPECT_NEAR(glm::length(motion.velocity_mps - velocity), 0.0, 2e-3);
+    const glm::dvec3 acceleration = -kRate * kRate * place(2.0 - h_s);
+    EXPECT_NEAR(glm::length(motion.acceleration_mps2 - acceleration), 0.0, 2e-3);
+    EXPECT_NEAR(glm::length(motion.turn_rad_s - glm::dvec3(0, 0, kRate)), 0.0, 1e-9);
+  }
+}
+
+TEST(InputPoses, ThatAreTooFewSayNothingOfMotion) {
+  InputPoses poses;
+  poses.add("boat", pose_of(0, {1, 0, 0}));
+  poses.set_horizon({70 * kMs});
+  EXPECT_FALSE(poses.motion_window("boat", {70 * kMs}));
+  poses.add("boat", pose_of(20 * kMs, {1, 0, 0}));
+  poses.add("boat", pose_of(40 * kMs, {1, 0, 0}));
+  poses.add("boat", pose_of(80 * kMs, {1, 0, 0}));
+  EXPECT_FALSE(poses.motion_window("boat", {70 * kMs}));
+  poses.set_horizon({90 * kMs});
+  ASSERT_TRUE(poses.motion_window("boat", {90 * kMs}));
+  EXPECT_EQ(poses.motion_window("boat", {90 * kMs})->end.t_ns, 80 * kMs);
+  poses.set_horizon({2000 * kMs});  // for over a second none came: it stands still
+  EXPECT_EQ(poses.motion_window("boat", {2000 * kMs})->end.t_ns, 2000 * kMs);
+}
+
+// ---- What comes in
+
+// What `put` makes Inputs say, with the ticks and poses that come of it.
+struct Taken {
+  std::string said;
+  std::vector<Inputs::Tick> ticks;
+  InputPoses poses;
+};
+
+template <class Put>
+void take_all(const Put& put, Taken& taken) {
+  Inputs inputs({"boat", "buoy"});
+  testing::internal::CaptureStderr();
+  put(inputs);
+  for (Inputs::Tick tick; inputs.next_tick(tick, taken.poses, kNever);) taken.ticks.push_back(tick);
+  taken.said = testing::internal::GetCapturedStderr();
+}
+
+TEST(Inputs, GivePosesWithTheClockThatComesAfterThem) {
+  Inputs inputs({"boat"});
+  InputPoses poses;
+  inputs.put_pose(kHere, "boat", pose_of(0, {1, 0, 0}));
+  inputs.put_pose(kHere, "boat", pose_of(10 * kMs, {2, 0, 0}));  // early
+  inputs.put_clock(kHere, 0);
+  inputs.put_clock(kHere, 0);  // says nothing new
+  inputs.put_clock(kHere, 10 * kMs);
+  inputs.put_pose(kHere, "boat", pose_of(20 * kMs, {3, 0, 0}));
+  Inputs::Tick tick;
+  ASSERT_TRUE(inputs.next_tick(tick, poses, kNever));
+  EXPECT_TRUE(tick.t_ns == 0 && tick.is_start);
+  EXPECT_EQ(poses.at("boat", {10 * kMs})->position_m.x, 1.0);
+  ASSERT_TRUE(inputs.next_tick(tick, poses, kNever));
+  EXPECT_TRUE(tick.t_ns == 10 * kMs && !tick.is_start);
+  EXPECT_EQ(poses.at("boat", {20 * kMs})->position_m.x, 2.0);
+  EXPECT_FALSE(inputs.next_tick(tick, poses, kNever));
+}
+
+TEST(Inputs, StartAgainWhereTheClockJumps) {
+  Taken taken;
+  take_all(
+      [](Inputs& inputs) {
+        inputs.put_pose(kHere, "boat", pose_of(5'000 * kMs, {1, 0, 0}));
+        inputs.put_clock({"/clock"}, 5'000 * kMs);
+        inputs.put_pose(kHere, "boat", pose_of(5'010 * kMs, {2, 0, 0}));  // of the old time
+        inputs.put_pose(kHere, "boat", pose_of(0, {3, 0, 0}));            // of the new one
+        inputs.put_clock({"/clock"}, 0);
+        inputs.put_clock({"/clock"}, 10'000 * kMs);
+        inputs.put_clock({"/clock"}, 20'001 * kMs);
+      },
+      taken);
+  ASSERT_EQ(taken.ticks.size(), 4u);
+  EXPECT_TRUE(taken.ticks[1].is_start);
+  EXPECT_FALSE(taken.ticks[2].is_start);
+  EXPECT_TRUE(taken.ticks[3].is_start);
+  EXPECT_EQ(taken.said, "note: /clock: jumped from 5 s to 0 s; starting again there\n");
+  EXPECT_FALSE(taken.poses.at("boat", {30'000 * kMs}));
+}
+
+struct BadPose {
+  const char* said;
+  StampedPose pose;
+  const char* frame = "boat";
+};
+
+TEST(Inputs, ThatAreNotRightAreToldOfInOneLine) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  const BadPose cases[] = {
+      {"a pose, got the body \"ship\", allowed bodies of the rig with pose = \"input\": boat, buoy",
+       pose_of(0, {}), "ship"},
+      {"a pose, got a position with nan, allowed -1e6 to 1e6 m", pose_of(0, {0, kNan, 0})},
+      {"a pose, got a position with inf, allowed -1e6 to 1e6 m", pose_of(0, {kInf, 0, 0})},
+      {"a pose, got a position with 2000000, allowed -1e6 to 1e6 m", pose_of(0, {2e6, 0, 0})},
+      {"a pose, got a quaternion of length 0, allowed 1", {0, {}, {0, 0, 0, 0}}},
+      {"a pose, got a quaternion of length nan, allowed 1", {0, {}, {kNan, 0, 0, 0}}},
+      {"a pose, got a quaternion of length 0.5, allowed 1", {0, {}, {0.5, 0, 0, 0}}},
+      {"a pose, got the stamp -1 ns, allowed 0 to 2^31 s", pose_of(-1, {})},
+  };
+  for (const BadPose& bad : cases) {
+    Taken taken;
+    take_all(
+        [&](Inputs& inputs) {
+          for (int again = 0; again < 3; ++again) inputs.put_pose(kHere, bad.frame, bad.pose);
+          inputs.put_clock(kHere, 0);
+        },
+        taken);
+    EXPECT_EQ(taken.said,
+              fmt::format("warning: /here: {}; left out, as are more like it\n", bad.said));
+    EXPECT_FALSE(taken.poses.at(bad.frame, {0}));
+  }
+  Taken taken;
+  take_all([](Inputs& inputs) { inputs.put_clock(kHere, -5); }, taken);
+  EXPECT_EQ(taken.said,
+            "warning: /here: a clock, got -5 ns, allowed 0 to 2^31 s; left out, as are more like "
+            "it\n");
+  EXPECT_TRUE(taken.ticks.empty());
+}
+
+TEST(Inputs, ComeAsLinesOfJson) {
+  Taken taken;
+  take_all(
+      [](Inputs& inputs) {
+        take_json_line(R"({"body": "boat", "stamp_ns": 7, "position": [1, 2.5, 3], )"
+                       R"("orientation": [0, 0, 1, 0]})",
+                       kHere, inputs);
+        take_json_line(" ", kHere, inputs);
+        take_json_line(R"({"clock_ns": 7})", kHere, inputs);
+      },
+      taken);
+  EXPECT_EQ(taken.said, "");
+  ASSERT_EQ(taken.ticks.size(), 1u);
+  const auto pose = taken.poses.at("boat", {7});
+  ASSERT_TRUE(pose);
+  EXPECT_EQ(pose->position_m, glm::dvec3(1, 2.5, 3));
+  EXPECT_EQ(pose->axes[0], glm::dvec3(-1, 0, 0));
+  for (const char* line : {"{", "[]", "7", "{\"clock_ns\": 1.5}", "{\"clock_ns\": 1, \"x\": 2}",
+                           "{\"clock_ns\": 18446744073709551615}", "{\"body\": 3}",
+                           R"({"body": "boat", "stamp_ns": 7, "position": [1, 2], )"
+                           R"("orientation": [0, 0, 1, 0]})"}) {
+    Taken none;
+    take_all([&](Inputs& inputs) { take_json_line(line, {"lines", 12}, inputs); }, none);
+    EXPECT_TRUE(none.said.starts_with("warning: lines:12: got another line, allowed ")) << line;
+    EXPECT_TRUE(none.ticks.empty());
+  }
+}
+
+// Bytes changed and left out, and numbers put in.
+TEST(Inputs, TenThousandDamagedLinesAreTakenOrLeftOut) {
+  const std::string whole[] = {
+      R"({"clock_ns": 20000000})",
+      R"({"body": "boat", "stamp_ns": 10000000, "position": [1, -2, 3e1], )"
+      R"("orientation": [0.0, 0, 0, 1]})"};
+  const char* words[] = {"1e999", "-1", "null", "\"", "[", "{", "9223372036854775808", "\\u0000"};
+  std::mt19937_64 random(9);
+  Taken taken;
+  take_all(
+      [&](Inputs& inputs) {
+        for (int n = 0; n < 10'000; ++n) {
+          std::string line = whole[random() % 2];
+          for (auto damages = random() % 4; damages-- > 0;) {
+            const std::size_t at = random() % line.size();
+            if (random() % 3 == 0)
+              line.insert(at, words[random() % 8]);
+            else if (random() % 2 == 0)
+              line[at] = static_cast<char>(random());
+            else
+              line.erase(at, 1 + random() % 5);
+            if (line.empty()) line = " ";
+          }
+          take_json_line(line, {"lines", n}, inputs);
+        }
+      },
+      taken);
+  EXPECT_GT(taken.ticks.size(), 100u);
+  EXPECT_LE(std::ranges::count(taken.said, '\n'), 2);
+}
+
+// ---- Runs
+
+constexpr const char* kSea = R"(
+[sky]
+model = "gradient"
+[sea]
+resolution = 32
+)";
+constexpr const char* kSensorsText = R"(
+[[pose]]
+name = "tip"
+body = "boat"
+rate_hz = 100
+[[odometry]]
+name = "odom"
+body = "boat"
+[[imu]]
+name = "imu"
+body = "boat"
+position_m = [2, 0, 0]
+[[wave_probe]]
+name = "probe"
+body = "boat"
+rate_hz = 25
+)";
+
+// Messages of a run: the topic, the stamp and the bytes.
+class KeptMessages : public MessageOutput {
+ public:
+  struct Entry {
+    std::string topic;
+    std::int64_t stamp_ns;
+    std::vector<std::uint8_t> bytes;
+    bool operator==(const Entry&) const = default;
+  };
+
+  explicit KeptMessages(const Simulation& simulation) : simulation_(simulation) {}
+  void write(std::size_t topic, std::int64_t stamp_ns, const msg::Message& message) override {
+    entries.push_back({simulation_.topics[topic].name, stamp_ns, cdr_bytes(message)});
+    last[entries.back().topic] = message;
+  }
+  void finish() override { is_finished = true; }
+
+  std::vector<Entry> entries;
+  std::map<std::string, msg::Message> last;
+  bool is_finished = false;
+
+ private:
+  const Simulation& simulation_;
+};
+
+struct RunOf {
+  std::vector<KeptMessages::Entry> entries;
+  std::map<std::string, msg::Message> last;
+};
+
+template <class Put>
+RunOf run_of(const std::string& rig_text, const RunSettings& settings, const Put& put,
+             int threads = 1) {
+  const scene::Rig rig = scene::parse_rig(rig_text, "rig.toml", {});
+  const render::World world(scene::parse_scene(kSea, "scene.toml"), threads);
+  Workers workers(threads);
+  InputPoses poses;
+  SimWorld sim_world(world, rig, workers, &poses);
+  const Simulation simulation = make_simulation(sim_world);
+  Inputs inputs({"boat"});
+  put(inputs);
+  KeptMessages kept(simulation);
+  MessageOutput* output = &kept;
+  run_simulation(simulation, settings, {&output, 1}, inputs, poses, kNever);
+  EXPECT_TRUE(kept.is_finished);
+  return {kept.entries, kept.last};
+}
+
+TEST(LockStep, PublishesWhatAClockOfItsOwnDoes) {
+  const std::string rig = std::string(
+                              "[[body]]\nframe = \"boat\"\n[[body.path]]\nt_s = 0\n"
+                              "[[body.path]]\nt_s = 1\nposition_m = [10, 0, 0]\n") +
+                          kSensorsText;
+  const RunOf own = run_of(rig, {.duration_s = 0.5}, [](Inputs&) {});
+  for (const std::int64_t step : {7 * kMs, 10 * kMs, 250 * kMs}) {
+    const RunSettings settings = {.duration_s = 0.5, .is_clock_input = true};
+    const RunOf outside = run_of(rig, settings, [&](Inputs& inputs) {
+      for (std::int64_t t = 0; t < 1000 * kMs; t += step) inputs.put_clock(kHere, t);
+    });
+    EXPECT_EQ(own.entries, outside.entries) << step;
+  }
+}
+
+// A boat that goes east at 3 m/s from its pose at 100 ms on.
+template <class Put>
+void put_boat(Inputs& inputs, const Put& put_between) {
+  for (std::int64_t t = 0; t <= 500 * kMs; t += 10 * kMs) {
+    if (t >= 100 * kMs && t % (20 * kMs) == 0)
+      inputs.put_pose(kHere, "boat", pose_of(t, {3.0 * Moment{t}.t_s(), 1, 2}));
+    put_between(t);
+    inputs.put_clock(kHere, t);
+  }
+}
+
+TEST(LockStep, SensorsOfABodyWaitForItsFirstPoseAndThenGoWithIt) {
+  const std::string rig =
+      "[[body]]\nframe = \"boat\"\npose = \"input\"\n" + std::string(kSensorsText);
+  const RunSettings settings = {.duration_s = 10.0, .is_clock_input = true};
+  testing::internal::CaptureStderr();
+  const RunOf run =
+      run_of(rig, settings, [](Inputs& inputs) { put_boat(inputs, [](std::int64_t) {}); });
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "note: body boat: no pose has come yet; what is on it waits\n");
+  std::map<std::string, std::vector<std::int64_t>> stamps;
+  for (const auto& entry : run.entries) stamps[entry.topic].push_back(entry.stamp_ns / kMs);
+  EXPECT_EQ(stamps["/tip"].front(), 100);
+  EXPECT_EQ(stamps["/tip"].size(), 41u);
+  EXPECT_EQ(stamps["/tf"].size(), 21u);
+  EXPECT_EQ(stamps["/probe"].front(), 120);
+  EXPECT_EQ(stamps["/odom"].front(), 180);  // two steps of 40 ms later
+  EXPECT_EQ(stamps["/imu/data"].front(), 180);
+  const auto& tip = std::get<msg::PoseStamped>(run.last.at("/tip")).pose.position;
+  EXPECT_NEAR(tip.x, 1.5, 1e-12);
+  const auto& odom = std::get<msg::Odometry>(run.last.at("/odom"));
+  EXPECT_NEAR(odom.twist.twist.linear.x, 3.0, 1e-9);
+  const auto& imu = std::get<msg::Imu>(run.last.at("/imu/data"));
+  EXPECT_NEAR(imu.linear_acceleration.x, 0.0, 1e-9);
+  EXPECT_NEAR(imu.linear_acceleration.z, 9.81, 1e-9);
+}
+
+TEST(LockStep, OfTheSameInputsIsTheSameWhateverComesTooEarlyAndOnAnyThreads) {
+  const std::string rig =
+      "[[body]]\nframe = \"boat\"\npose = \"input\"\n" + std::string(kSensorsText);
+  const RunSettings settings = {.duration_s = 10.0, .is_clock_input = true};
+  const auto plain = [](Inputs& inputs) { put_boat(inputs, [](std::int64_t) {}); };
+  // The pose of the next step is there before the clock of this one.
+  const auto early = [](Inputs& inputs) {
+    put_boat(inputs, [&](std::int64_t t) {
+      if (t >= 100 * kMs && t % (20 * kMs) == 0)
+        inputs.put_pose(kHere, "boat",
+                        pose_of(t + 20 * kMs, {3.0 * Moment{t + 20 * kMs}.t_s(), 1, 2}));
+    });
+  };
+  const RunOf first = run_of(rig, settings, plain);
+  EXPECT_EQ(first.entries, run_of(rig, settings, plain, 2).entries);
+  EXPECT_EQ(first.entries, run_of(rig, settings, early).entries);
+}
+
+TEST(LockStep, StartsItsSensorsAgainWhereTheClockGoesBack) {
+  const std::string rig = "[[wave_probe]]\nname = \"probe\"\nrate_hz = 10\n";
+  const RunSettings settings = {.duration_s = 10.0, .is_clock_input = true};
+  const RunOf run = run_of(rig, settings, [](Inputs& inputs) {
+    for (const std::int64_t t : {1'050, 1'250, 150, 250}) inputs.put_clock(kHere, t * kMs);
+  });
+  std::vector<std::int64_t> stamps;
+  for (const auto& entry : run.entries)
+    if (entry.topic == "/probe") stamps.push_back(entry.stamp_ns / kMs);
+  EXPECT_EQ(stamps, (std::vector<std::int64_t>{1'100, 1'200, 200}));
+}
+
+}  // namespace
+}  // namespace swell::apps
