@@ -12,11 +12,8 @@
 
 #include "apps/messages/cdr.h"
 #include "apps/sim/json_inputs.h"
-#include "apps/sim/run.h"
-#include "apps/sim/sensors.h"
-#include "apps/sim/sim_world.h"
+#include "apps/sim/ros_inputs.h"
 #include "math/elementary.h"
-#include "render/world/world.h"
 
 namespace swell::apps {
 namespace {
@@ -270,160 +267,95 @@ TEST(Inputs, TenThousandDamagedLinesAreTakenOrLeftOut) {
   EXPECT_LE(std::ranges::count(taken.said, '\n'), 2);
 }
 
-// ---- Runs
+// ---- Messages of ROS 2
 
-constexpr const char* kSea = R"(
-[sky]
-model = "gradient"
-[sea]
-resolution = 32
-)";
-constexpr const char* kSensorsText = R"(
-[[pose]]
-name = "tip"
-body = "boat"
-rate_hz = 100
-[[odometry]]
-name = "odom"
-body = "boat"
-[[imu]]
-name = "imu"
-body = "boat"
-position_m = [2, 0, 0]
-[[wave_probe]]
-name = "probe"
-body = "boat"
-rate_hz = 25
-)";
-
-// Messages of a run: the topic, the stamp and the bytes.
-class KeptMessages : public MessageOutput {
- public:
-  struct Entry {
-    std::string topic;
-    std::int64_t stamp_ns;
-    std::vector<std::uint8_t> bytes;
-    bool operator==(const Entry&) const = default;
-  };
-
-  explicit KeptMessages(const Simulation& simulation) : simulation_(simulation) {}
-  void write(std::size_t topic, std::int64_t stamp_ns, const msg::Message& message) override {
-    entries.push_back({simulation_.topics[topic].name, stamp_ns, cdr_bytes(message)});
-    last[entries.back().topic] = message;
-  }
-  void finish() override { is_finished = true; }
-
-  std::vector<Entry> entries;
-  std::map<std::string, msg::Message> last;
-  bool is_finished = false;
-
- private:
-  const Simulation& simulation_;
-};
-
-struct RunOf {
-  std::vector<KeptMessages::Entry> entries;
-  std::map<std::string, msg::Message> last;
-};
-
-template <class Put>
-RunOf run_of(const std::string& rig_text, const RunSettings& settings, const Put& put,
-             int threads = 1) {
-  const scene::Rig rig = scene::parse_rig(rig_text, "rig.toml", {});
-  const render::World world(scene::parse_scene(kSea, "scene.toml"), threads);
-  Workers workers(threads);
-  InputPoses poses;
-  SimWorld sim_world(world, rig, workers, &poses);
-  const Simulation simulation = make_simulation(sim_world);
-  Inputs inputs({"boat"});
-  put(inputs);
-  KeptMessages kept(simulation);
-  MessageOutput* output = &kept;
-  run_simulation(simulation, settings, {&output, 1}, inputs, poses, kNever);
-  EXPECT_TRUE(kept.is_finished);
-  return {kept.entries, kept.last};
+std::vector<std::uint8_t> pose_message_bytes(const std::string& frame, double x) {
+  msg::PoseStamped message;
+  message.header = {{3, 250'000'000}, frame};
+  message.pose.position = {x, 2.0, 3.0};
+  message.pose.orientation = {0.0, 0.0, 1.0, 0.0};
+  return cdr_bytes(message);
 }
 
-TEST(LockStep, PublishesWhatAClockOfItsOwnDoes) {
-  const std::string rig = std::string(
-                              "[[body]]\nframe = \"boat\"\n[[body.path]]\nt_s = 0\n"
-                              "[[body.path]]\nt_s = 1\nposition_m = [10, 0, 0]\n") +
-                          kSensorsText;
-  const RunOf own = run_of(rig, {.duration_s = 0.5}, [](Inputs&) {});
-  for (const std::int64_t step : {7 * kMs, 10 * kMs, 250 * kMs}) {
-    const RunSettings settings = {.duration_s = 0.5, .is_clock_input = true};
-    const RunOf outside = run_of(rig, settings, [&](Inputs& inputs) {
-      for (std::int64_t t = 0; t < 1000 * kMs; t += step) inputs.put_clock(kHere, t);
-    });
-    EXPECT_EQ(own.entries, outside.entries) << step;
+std::string said_of_pose(const std::vector<std::uint8_t>& bytes) {
+  Taken taken;
+  take_all([&](Inputs& inputs) { take_pose_message(bytes, "boat", kHere, inputs); }, taken);
+  return taken.said;
+}
+
+TEST(RosInputs, AreTakenInBothByteOrders) {
+  // By hand: 1 s and 2 ns.
+  const std::vector<std::uint8_t> little = {0, 1, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0};
+  const std::vector<std::uint8_t> big = {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 2};
+  for (const auto& clock : {little, big}) {
+    Taken taken;
+    take_all(
+        [&](Inputs& inputs) {
+          take_pose_message(pose_message_bytes("odom", 1.0), "boat", kHere, inputs);
+          take_clock_message(clock, kHere, inputs);
+          take_clock_message(cdr_bytes(msg::Clock{{4, 0}}), kHere, inputs);
+        },
+        taken);
+    EXPECT_EQ(taken.said, "");
+    ASSERT_EQ(taken.ticks.size(), 2u);
+    EXPECT_EQ(taken.ticks[0].t_ns, 1'000'000'002);
+    EXPECT_FALSE(taken.poses.at("boat", {3'249'999'999}));
+    EXPECT_EQ(taken.poses.at("boat", {3'250'000'000})->position_m, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(taken.poses.at("boat", {3'250'000'000})->axes[0], glm::dvec3(-1, 0, 0));
   }
 }
 
-// A boat that goes east at 3 m/s from its pose at 100 ms on.
-template <class Put>
-void put_boat(Inputs& inputs, const Put& put_between) {
-  for (std::int64_t t = 0; t <= 500 * kMs; t += 10 * kMs) {
-    if (t >= 100 * kMs && t % (20 * kMs) == 0)
-      inputs.put_pose(kHere, "boat", pose_of(t, {3.0 * Moment{t}.t_s(), 1, 2}));
-    put_between(t);
-    inputs.put_clock(kHere, t);
-  }
+TEST(RosInputs, WhoseBytesAreOfNoSuchMessageAreToldOf) {
+  const std::vector<std::uint8_t> right = pose_message_bytes("map", 1.0);
+  EXPECT_EQ(said_of_pose(right), "");
+  const std::string none = fmt::format(
+      "warning: /here: got {} bytes that are no PoseStamped, allowed geometry_msgs/msg/PoseStamped "
+      "in CDR; left out, as are more like it\n",
+      right.size());
+  auto lies = right;
+  lies[15] = 0x7f;  // the length of the text
+  EXPECT_EQ(said_of_pose(lies), none);
+  auto endless = right;
+  endless[19] = 'x';  // "mapx"
+  EXPECT_EQ(said_of_pose(endless), none);
+  auto other = right;
+  other[1] = 3;  // another encoding
+  EXPECT_EQ(said_of_pose(other), none);
+  auto late = right;
+  late[11] = 0x7f;  // nanoseconds
+  EXPECT_EQ(said_of_pose(late), none);
+  for (std::size_t size = 0; size < right.size(); ++size)
+    EXPECT_NE(said_of_pose({right.begin(), right.begin() + static_cast<std::ptrdiff_t>(size)}), "");
+  EXPECT_EQ(said_of_pose(pose_message_bytes("camera_link", 1.0)),
+            "warning: /here: a pose, got the frame_id \"camera_link\", allowed map or odom; left "
+            "out, as are more like it\n");
+  EXPECT_EQ(said_of_pose(pose_message_bytes("", 1.0)), "");
 }
 
-TEST(LockStep, SensorsOfABodyWaitForItsFirstPoseAndThenGoWithIt) {
-  const std::string rig =
-      "[[body]]\nframe = \"boat\"\npose = \"input\"\n" + std::string(kSensorsText);
-  const RunSettings settings = {.duration_s = 10.0, .is_clock_input = true};
-  testing::internal::CaptureStderr();
-  const RunOf run =
-      run_of(rig, settings, [](Inputs& inputs) { put_boat(inputs, [](std::int64_t) {}); });
-  EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            "note: body boat: no pose has come yet; what is on it waits\n");
-  std::map<std::string, std::vector<std::int64_t>> stamps;
-  for (const auto& entry : run.entries) stamps[entry.topic].push_back(entry.stamp_ns / kMs);
-  EXPECT_EQ(stamps["/tip"].front(), 100);
-  EXPECT_EQ(stamps["/tip"].size(), 41u);
-  EXPECT_EQ(stamps["/tf"].size(), 21u);
-  EXPECT_EQ(stamps["/probe"].front(), 120);
-  EXPECT_EQ(stamps["/odom"].front(), 180);  // two steps of 40 ms later
-  EXPECT_EQ(stamps["/imu/data"].front(), 180);
-  const auto& tip = std::get<msg::PoseStamped>(run.last.at("/tip")).pose.position;
-  EXPECT_NEAR(tip.x, 1.5, 1e-12);
-  const auto& odom = std::get<msg::Odometry>(run.last.at("/odom"));
-  EXPECT_NEAR(odom.twist.twist.linear.x, 3.0, 1e-9);
-  const auto& imu = std::get<msg::Imu>(run.last.at("/imu/data"));
-  EXPECT_NEAR(imu.linear_acceleration.x, 0.0, 1e-9);
-  EXPECT_NEAR(imu.linear_acceleration.z, 9.81, 1e-9);
-}
-
-TEST(LockStep, OfTheSameInputsIsTheSameWhateverComesTooEarlyAndOnAnyThreads) {
-  const std::string rig =
-      "[[body]]\nframe = \"boat\"\npose = \"input\"\n" + std::string(kSensorsText);
-  const RunSettings settings = {.duration_s = 10.0, .is_clock_input = true};
-  const auto plain = [](Inputs& inputs) { put_boat(inputs, [](std::int64_t) {}); };
-  // The pose of the next step is there before the clock of this one.
-  const auto early = [](Inputs& inputs) {
-    put_boat(inputs, [&](std::int64_t t) {
-      if (t >= 100 * kMs && t % (20 * kMs) == 0)
-        inputs.put_pose(kHere, "boat",
-                        pose_of(t + 20 * kMs, {3.0 * Moment{t + 20 * kMs}.t_s(), 1, 2}));
-    });
-  };
-  const RunOf first = run_of(rig, settings, plain);
-  EXPECT_EQ(first.entries, run_of(rig, settings, plain, 2).entries);
-  EXPECT_EQ(first.entries, run_of(rig, settings, early).entries);
-}
-
-TEST(LockStep, StartsItsSensorsAgainWhereTheClockGoesBack) {
-  const std::string rig = "[[wave_probe]]\nname = \"probe\"\nrate_hz = 10\n";
-  const RunSettings settings = {.duration_s = 10.0, .is_clock_input = true};
-  const RunOf run = run_of(rig, settings, [](Inputs& inputs) {
-    for (const std::int64_t t : {1'050, 1'250, 150, 250}) inputs.put_clock(kHere, t * kMs);
-  });
-  std::vector<std::int64_t> stamps;
-  for (const auto& entry : run.entries)
-    if (entry.topic == "/probe") stamps.push_back(entry.stamp_ns / kMs);
-  EXPECT_EQ(stamps, (std::vector<std::int64_t>{1'100, 1'200, 200}));
+TEST(RosInputs, TenThousandDamagedMessagesAreTakenOrLeftOut) {
+  const auto whole = {pose_message_bytes("map", 1.0), cdr_bytes(msg::Clock{{4, 5}})};
+  std::mt19937_64 random(11);
+  Taken taken;
+  take_all(
+      [&](Inputs& inputs) {
+        for (int n = 0; n < 10'000; ++n) {
+          const bool is_pose = random() % 2 == 0;
+          std::vector<std::uint8_t> bytes = *(whole.begin() + (is_pose ? 0 : 1));
+          for (auto damages = random() % 4; damages-- > 0 && !bytes.empty();) {
+            if (random() % 3 == 0)
+              bytes.resize(random() % (2 * bytes.size()));
+            else
+              bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+          }
+          if (is_pose)
+            take_pose_message(bytes, "boat", {"/boat/pose"}, inputs);
+          else
+            take_clock_message(bytes, {"/clock"}, inputs);
+        }
+      },
+      taken);
+  EXPECT_GT(taken.ticks.size(), 100u);
+  EXPECT_EQ(std::ranges::count(taken.said, '\n'), 3);  // a line for each topic, one for jumps
 }
 
 }  // namespace

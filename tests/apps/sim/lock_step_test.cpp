@@ -1,0 +1,181 @@
+// Runs in lock-step with a clock from outside.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/messages/cdr.h"
+#include "apps/sim/run.h"
+#include "apps/sim/sensors.h"
+#include "apps/sim/sim_world.h"
+#include "render/world/world.h"
+
+namespace swell::apps {
+namespace {
+
+constexpr std::int64_t kStep_ns = 1'000'000;  // a millisecond
+constexpr InputOrigin kClockTopic{"/here"};
+
+StampedPose boat_pose(std::int64_t stamp_ns, const glm::dvec3& position_m) {
+  return {stamp_ns, position_m, {1.0, 0.0, 0.0, 0.0}};
+}
+
+constexpr const char* kSea = R"(
+[sky]
+model = "gradient"
+[sea]
+resolution = 32
+)";
+constexpr const char* kSensorsText = R"(
+[[pose]]
+name = "tip"
+body = "boat"
+rate_hz = 100
+[[odometry]]
+name = "odom"
+body = "boat"
+[[imu]]
+name = "imu"
+body = "boat"
+position_m = [2, 0, 0]
+[[wave_probe]]
+name = "probe"
+body = "boat"
+rate_hz = 25
+)";
+
+// Messages of a run: the topic, the stamp and the bytes.
+class KeptMessages : public MessageOutput {
+ public:
+  struct Entry {
+    std::string topic;
+    std::int64_t stamp_ns;
+    std::vector<std::uint8_t> bytes;
+    bool operator==(const Entry&) const = default;
+  };
+
+  explicit KeptMessages(const Simulation& simulation) : simulation_(simulation) {}
+  void write(std::size_t topic, std::int64_t stamp_ns, const msg::Message& message) override {
+    entries.push_back({simulation_.topics[topic].name, stamp_ns, cdr_bytes(message)});
+    last[entries.back().topic] = message;
+  }
+  void finish() override { is_finished = true; }
+
+  std::vector<Entry> entries;
+  std::map<std::string, msg::Message> last;
+  bool is_finished = false;
+
+ private:
+  const Simulation& simulation_;
+};
+
+struct RunOf {
+  std::vector<KeptMessages::Entry> entries;
+  std::map<std::string, msg::Message> last;
+};
+
+template <class Put>
+RunOf run_of(const std::string& rig_text, const RunSettings& settings, const Put& put,
+             int threads = 1) {
+  const scene::Rig rig = scene::parse_rig(rig_text, "rig.toml", {});
+  const render::World world(scene::parse_scene(kSea, "scene.toml"), threads);
+  Workers workers(threads);
+  InputPoses poses;
+  SimWorld sim_world(world, rig, workers, &poses);
+  const Simulation simulation = make_simulation(sim_world);
+  Inputs inputs({"boat"});
+  put(inputs);
+  KeptMessages kept(simulation);
+  MessageOutput* output = &kept;
+  run_simulation(simulation, settings, {&output, 1}, inputs, poses, [] { return false; });
+  EXPECT_TRUE(kept.is_finished);
+  return {kept.entries, kept.last};
+}
+
+TEST(LockStep, PublishesWhatAClockOfItsOwnDoes) {
+  const std::string rig = std::string(
+                              "[[body]]\nframe = \"boat\"\n[[body.path]]\nt_s = 0\n"
+                              "[[body.path]]\nt_s = 1\nposition_m = [10, 0, 0]\n") +
+                          kSensorsText;
+  const RunOf own = run_of(rig, {.duration_s = 0.5}, [](Inputs&) {});
+  for (const std::int64_t step : {7 * kStep_ns, 10 * kStep_ns, 250 * kStep_ns}) {
+    const RunSettings settings = {.duration_s = 0.5, .is_clock_input = true};
+    const RunOf outside = run_of(rig, settings, [&](Inputs& inputs) {
+      for (std::int64_t t = 0; t < 1000 * kStep_ns; t += step) inputs.put_clock(kClockTopic, t);
+    });
+    EXPECT_EQ(own.entries, outside.entries) << step;
+  }
+}
+
+// A boat that goes east at 3 m/s from its pose at 100 ms on.
+template <class Put>
+void put_boat(Inputs& inputs, const Put& put_between) {
+  for (std::int64_t t = 0; t <= 500 * kStep_ns; t += 10 * kStep_ns) {
+    if (t >= 100 * kStep_ns && t % (20 * kStep_ns) == 0)
+      inputs.put_pose(kClockTopic, "boat", boat_pose(t, {3.0 * Moment{t}.t_s(), 1, 2}));
+    put_between(t);
+    inputs.put_clock(kClockTopic, t);
+  }
+}
+
+TEST(LockStep, SensorsOfABodyWaitForItsFirstPoseAndThenGoWithIt) {
+  const std::string rig =
+      "[[body]]\nframe = \"boat\"\npose = \"input\"\n" + std::string(kSensorsText);
+  const RunSettings settings = {.duration_s = 10.0, .is_clock_input = true};
+  testing::internal::CaptureStderr();
+  const RunOf run =
+      run_of(rig, settings, [](Inputs& inputs) { put_boat(inputs, [](std::int64_t) {}); });
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "note: body boat: no pose has come yet; what is on it waits\n");
+  std::map<std::string, std::vector<std::int64_t>> stamps;
+  for (const auto& entry : run.entries) stamps[entry.topic].push_back(entry.stamp_ns / kStep_ns);
+  EXPECT_EQ(stamps["/tip"].front(), 100);
+  EXPECT_EQ(stamps["/tip"].size(), 41u);
+  EXPECT_EQ(stamps["/tf"].size(), 21u);
+  EXPECT_EQ(stamps["/probe"].front(), 120);
+  EXPECT_EQ(stamps["/odom"].front(), 180);  // two steps of 40 ms later
+  EXPECT_EQ(stamps["/imu/data"].front(), 180);
+  const auto& tip = std::get<msg::PoseStamped>(run.last.at("/tip")).pose.position;
+  EXPECT_NEAR(tip.x, 1.5, 1e-12);
+  const auto& odom = std::get<msg::Odometry>(run.last.at("/odom"));
+  EXPECT_NEAR(odom.twist.twist.linear.x, 3.0, 1e-9);
+  const auto& imu = std::get<msg::Imu>(run.last.at("/imu/data"));
+  EXPECT_NEAR(imu.linear_acceleration.x, 0.0, 1e-9);
+  EXPECT_NEAR(imu.linear_acceleration.z, 9.81, 1e-9);
+}
+
+TEST(LockStep, OfTheSameInputsIsTheSameWhateverComesTooEarlyAndOnAnyThreads) {
+  const std::string rig =
+      "[[body]]\nframe = \"boat\"\npose = \"input\"\n" + std::string(kSensorsText);
+  const RunSettings settings = {.duration_s = 10.0, .is_clock_input = true};
+  const auto plain = [](Inputs& inputs) { put_boat(inputs, [](std::int64_t) {}); };
+  // The pose of the next step is there before the clock of this one.
+  const auto early = [](Inputs& inputs) {
+    put_boat(inputs, [&](std::int64_t t) {
+      if (t >= 100 * kStep_ns && t % (20 * kStep_ns) == 0)
+        inputs.put_pose(
+            kClockTopic, "boat",
+            boat_pose(t + 20 * kStep_ns, {3.0 * Moment{t + 20 * kStep_ns}.t_s(), 1, 2}));
+    });
+  };
+  const RunOf first = run_of(rig, settings, plain);
+  EXPECT_EQ(first.entries, run_of(rig, settings, plain, 2).entries);
+  EXPECT_EQ(first.entries, run_of(rig, settings, early).entries);
+}
+
+TEST(LockStep, StartsItsSensorsAgainWhereTheClockGoesBack) {
+  const std::string rig = "[[wave_probe]]\nname = \"probe\"\nrate_hz = 10\n";
+  const RunSettings settings = {.duration_s = 10.0, .is_clock_input = true};
+  const RunOf run = run_of(rig, settings, [](Inputs& inputs) {
+    for (const std::int64_t t : {1'050, 1'250, 150, 250})
+      inputs.put_clock(kClockTopic, t * kStep_ns);
+  });
+  std::vector<std::int64_t> stamps;
+  for (const auto& entry : run.entries)
+    if (entry.topic == "/probe") stamps.push_back(entry.stamp_ns / kStep_ns);
+  EXPECT_EQ(stamps, (std::vector<std::int64_t>{1'100, 1'200, 200}));
+}
+
+}  // namespace
+}  // namespace swell::apps
