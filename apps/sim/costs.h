@@ -18,7 +18,7 @@ struct Cost {
 struct Costs {
   std::vector<Cost> sources;    // of making the messages of one stamp, in the simulation's order
   Cost output;                  // of giving a message to the output
-  std::vector<double> late_ms;  // in real time: of each stamp, when its messages were given
+  std::vector<double> late_ms;  // in real time: of each message, when it was given
   double duration_s = 0.0, wall_s = 0.0;
 };
 

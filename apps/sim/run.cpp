@@ -89,7 +89,7 @@ class Run {
       const Clock::time_point given = Clock::now();
       for (MessageOutput* output : outputs_) output->write(topic, due.stamp_ns, message);
       if (!outputs_.empty()) costs_.output.add(ms_since(given));
-      if (settings_.realtime)
+      if (settings_.realtime && settings_.measure)
         costs_.late_ms.push_back(ms_since(start_ + std::chrono::nanoseconds(due.stamp_ns)));
     };
     simulation_.sources[due.source].publish({due.stamp_ns}, emit);

@@ -18,6 +18,7 @@ struct RunSettings {
   // Lock-step with the inputs' clock: all that is due up to a time that it shows is published, then
   // the next one is waited for.
   bool is_clock_input = false;
+  bool measure = false;  // keep how late each message is
 };
 
 // Publishes all messages in the order of their stamps until the duration is over, the outside clock

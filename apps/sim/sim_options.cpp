@@ -9,20 +9,42 @@ namespace {
 
 constexpr double kNotGiven_s = 0.0;
 
+// What others follow from the ones that were given.
+void complete(SimOptions& options) {
+  RunSettings& run = options.run;
+  if (options.dds && !run.is_clock_input) run.realtime = true;
+  if (run.duration_s == kNotGiven_s)
+    run.duration_s =
+        run.is_clock_input || options.dds ? std::numeric_limits<double>::infinity() : 10.0;
+}
+
 void check_together(const SimOptions& options) {
   if (options.rig_keys) return;
   if (options.scene.path.empty())
     throw OptionError("command line: --scene, got none, allowed --scene FILE");
   if (options.rig.empty()) throw OptionError("command line: --rig, got none, allowed --rig FILE");
-  if (options.record.empty() && !options.measure)
-    throw OptionError("command line: got nothing to do, allowed --record or --measure");
+  if (options.record.empty() && !options.run.measure && !options.dds)
+    throw OptionError("command line: got nothing to do, allowed --record, --dds on or --measure");
   if (options.run.is_clock_input && !options.takes_inputs())
-    throw OptionError("command line: --clock: got input without --inputs, allowed with it");
+    throw OptionError(
+        "command line: --clock: got input without --inputs or --dds on, allowed with one");
   if (options.run.is_clock_input && options.run.realtime)
     throw OptionError("command line: --realtime: got --clock input with it, allowed --clock own");
-  if (options.takes_inputs() && !options.run.is_clock_input && !options.run.realtime)
+  if (!options.inputs.empty() && !options.run.is_clock_input && !options.run.realtime)
     throw OptionError(
         "command line: --inputs: got neither --clock input nor --realtime, allowed one of them");
+}
+
+// An option that is one word or, which is true, the other.
+CommandLine::Value one_of_two(const std::string& name, const std::string& kind,
+                              const std::string& no, const std::string& yes, bool& is_yes,
+                              const std::string& help) {
+  return {name, kind, no, help, [=, &is_yes](const std::string& text) {
+            if (text != no && text != yes)
+              throw OptionError("command line: " + name + ": got '" + text + "', allowed " + no +
+                                " or " + yes);
+            is_yes = text == yes;
+          }};
 }
 
 }  // namespace
@@ -37,24 +59,19 @@ std::optional<SimOptions> parse_sim_options(int argc, char** argv) {
   line.add_text("--record", "FILE", options.record, "Write ROS 2 messages: .mcap");
   options.run.duration_s = kNotGiven_s;
   add_number(line, "--duration", options.run.duration_s, 1e-3, 1e6,
-             "Seconds, from 0 on: 10; endless with --clock input");
+             "Seconds, from 0 on: 10; endless with --clock input, --dds on");
   line.add_flag("--realtime", options.run.realtime, "Wait for each stamp");
-  line.add_value({"--clock", "CLOCK", "own", "own, or input: lock-step with --inputs",
-                  [&options](const std::string& text) {
-                    if (text != "own" && text != "input")
-                      throw OptionError("command line: --clock: got '" + text +
-                                        "', allowed own or input");
-                    options.run.is_clock_input = text == "input";
-                  }});
+  line.add_value(one_of_two("--clock", "CLOCK", "own", "input", options.run.is_clock_input,
+                            "own, or input: lock-step with /clock or --inputs"));
   line.add_text("--inputs", "FILE", options.inputs,
                 "Clock and poses (--rig-keys); - is standard input");
-  line.add_flag("--measure", options.measure, "Print what each sensor costs");
+  line.add_value(one_of_two("--dds", "WHETHER", "off", "on", options.dds,
+                            "on: ROS 2 topics (--rig-keys); off: no open port"));
+  line.add_flag("--measure", options.run.measure, "Print what each sensor costs");
   add_machine_options(line, options.threads, options.simd);
   if (!line.parse(argc, argv)) return std::nullopt;
   check_together(options);
-  if (options.run.duration_s == kNotGiven_s)
-    options.run.duration_s =
-        options.run.is_clock_input ? std::numeric_limits<double>::infinity() : 10.0;
+  complete(options);
   return options;
 }
 

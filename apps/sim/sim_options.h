@@ -17,12 +17,13 @@ struct SimOptions {
   std::vector<std::string> rig_settings;
   std::string record;  // file; empty: none
   std::string inputs;  // file, "-" or empty: none
+  bool dds = false;
   RunSettings run;
-  bool measure = false, rig_keys = false;
+  bool rig_keys = false;
   int threads = available_cpus();
   std::string simd;
 
-  bool takes_inputs() const { return !inputs.empty(); }
+  bool takes_inputs() const { return !inputs.empty() || dds; }
 };
 
 // Nothing if --help or --version was asked for. Throws OptionError.

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdio>
 #include <memory>
 #include <vector>
 
@@ -12,10 +13,12 @@
 #include "apps/shared/program.h"
 #include "apps/sim/costs.h"
 #include "apps/sim/json_inputs.h"
+#include "apps/sim/ros_inputs.h"
 #include "apps/sim/run.h"
 #include "apps/sim/sensors.h"
 #include "apps/sim/sim_options.h"
 #include "apps/sim/sim_world.h"
+#include "apps/sim/transport.h"
 #include "render/world/world.h"
 
 namespace swell::apps {
@@ -47,16 +50,19 @@ void check_inputs(const SimOptions& options, const scene::Rig& rig) {
   for (std::size_t n = 0; n < rig.bodies.size(); ++n)
     if (rig.bodies[n].is_input && !options.takes_inputs())
       scene::refuse_key(rig, fmt::format("body[{}].pose", n),
-                        "got \"input\" without --inputs, allowed with it");
+                        "got \"input\" without --inputs or --dds on, allowed with one");
 }
 
 void run(const SimOptions& options) {
   if (options.rig_keys) {
-    fmt::print("{}{}", scene::rig_keys_text(), kJsonInputsText);
+    fmt::print("{}{}{}", scene::rig_keys_text(), kJsonInputsText, kRosInputsText);
     return;
   }
   select_simd(options.simd);
-  if (!options.record.empty()) check_output_place(options.record);  // before the world is made
+  // Before the world is made:
+  if (!options.record.empty()) check_output_place(options.record);
+  std::unique_ptr<Transport> dds;
+  if (options.dds) dds = open_dds(options.run.is_clock_input);
   scene::Rig rig = scene::load_rig(options.rig, options.rig_settings);
   check_inputs(options, rig);
   if (options.run.is_clock_input) rig.clock_hz = 0.0;  // another publishes it
@@ -75,13 +81,18 @@ void run(const SimOptions& options) {
   std::vector<std::unique_ptr<InputSource>> sources;
   if (!options.inputs.empty())
     sources.push_back(std::make_unique<JsonInputs>(options.inputs, inputs));
+  if (dds) {
+    outputs.push_back(dds->output(simulation.topics));
+    if (options.inputs.empty()) sources.push_back(dds->source(options.run.is_clock_input, inputs));
+    std::fputs(fmt::format("note: {}\n", dds->audience()).c_str(), stderr);
+  }
 
   take_signals();
   std::vector<MessageOutput*> all_outputs;
   for (const auto& output : outputs) all_outputs.push_back(output.get());
   const Costs costs = run_simulation(simulation, options.run, all_outputs, inputs, poses,
                                      [] { return is_signalled.load(); });
-  if (options.measure) fmt::print("{}", cost_table(simulation, costs));
+  if (options.run.measure) fmt::print("{}", cost_table(simulation, costs));
   if (!options.record.empty())
     fmt::print("{}: {} messages of {} topics, {} s\n", options.record, costs.output.count,
                simulation.topics.size(), costs.duration_s);

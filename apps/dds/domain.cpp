@@ -1,0 +1,100 @@
+#include "apps/dds/domain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+#include <vector>
+
+#include "apps/dds/cdr_type.h"
+#include "apps/dds/interfaces.h"
+#include "apps/shared/program.h"
+
+namespace swell::apps {
+namespace {
+
+// A writer waits where so many bytes wait for readers: ten messages of a topic are fewer.
+constexpr const char* kNeverWait =
+    "<CycloneDDS><Domain><Internal><Watermarks><WhcHigh>1GB</WhcHigh><WhcHighInit>1GB</WhcHighInit>"
+    "<WhcAdaptive>false</WhcAdaptive></Watermarks></Internal></Domain></CycloneDDS>,";
+constexpr const char* kNoSharedMemory =
+    ",<CycloneDDS><Domain><SharedMemory><Enable>false</Enable></SharedMemory></Domain>"
+    "</CycloneDDS>";
+
+// What Cyclone says while this lives, in place of its lines on standard error.
+class HeardLog {
+ public:
+  HeardLog() { dds_set_log_sink(hear, this); }
+  ~HeardLog() { dds_set_log_sink(nullptr, nullptr); }
+  HeardLog(const HeardLog&) = delete;
+  HeardLog& operator=(const HeardLog&) = delete;
+
+  // The first fault, without what stands before it (the thread, the domain).
+  std::string fault() const { return fault_.empty() ? "unknown fault" : one_line(fault_); }
+
+ private:
+  static void hear(void* self, const dds_log_data_t* data) {
+    std::string& fault = static_cast<HeardLog*>(self)->fault_;
+    if (fault.empty()) fault = data->message;
+  }
+
+  std::string fault_;
+};
+
+// "sensor_msgs/msg/Image" is sensor_msgs::msg::dds_::Image_.
+std::string dds_type(std::string_view type) {
+  std::string name;
+  for (std::size_t at = 0; at < type.size();) {
+    const std::size_t end = std::min(type.find('/', at), type.size());
+    const std::string_view part = type.substr(at, end - at);
+    name += end < type.size() ? fmt::format("{}::", part) : fmt::format("dds_::{}_", part);
+    at = end + 1;
+  }
+  return name;
+}
+
+std::vector<std::string> interfaces_of(const ddsi_sertype* type) {
+  std::vector<std::string> interfaces;
+  char text[200];
+  for (int n = 0; dds_interface_text(type, n, text, sizeof text); ++n) interfaces.push_back(text);
+  return interfaces;
+}
+
+}  // namespace
+
+DdsDomain::DdsDomain(const DdsEnvironment& environment, bool is_patient)
+    : environment_(environment), is_patient_(is_patient) {
+  const HeardLog log;
+  const std::string configuration =
+      (is_patient ? "" : kNeverWait) + environment.configuration + kNoSharedMemory;
+  domain_ = dds_create_domain(environment.domain, configuration.c_str());
+  if (domain_ == DDS_RETCODE_ERROR || domain_ == DDS_RETCODE_BAD_PARAMETER)
+    throw OptionError(
+        fmt::format("CYCLONEDDS_URI: DDS domain {}: {}", environment.domain, log.fault()));
+  if (domain_ >= 0) participant_ = dds_create_participant(environment.domain, nullptr, nullptr);
+  if (domain_ >= 0 && participant_ >= 0) return;
+  const std::string fault = fmt::format("DDS domain {}: {}", environment.domain, log.fault());
+  if (domain_ >= 0) dds_delete(domain_);
+  throw std::runtime_error(fault);
+}
+
+DdsDomain::~DdsDomain() { dds_delete(domain_); }
+
+dds_entity_t DdsDomain::topic(const std::string& name, std::string_view type) {
+  const CdrTopic made = create_cdr_topic(participant_, "rt" + name, dds_type(type));
+  if (made.entity < 0)
+    throw std::runtime_error(fmt::format("{}: DDS: {}", name, dds_strretcode(-made.entity)));
+  if (interfaces_.empty()) interfaces_ = interfaces_of(made.type);
+  return made.entity;
+}
+
+std::string DdsDomain::audience() const {
+  std::string who = "by this machine and what is found through";
+  if (environment_.range == DiscoveryRange::kOff) who = "by nobody (discovery is off), through";
+  if (environment_.range == DiscoveryRange::kThisMachine) who = "by this machine alone, through";
+  return fmt::format("ROS 2 over DDS, domain {}: heard {} {}", environment_.domain, who,
+                     fmt::join(interfaces_, ", "));
+}
+
+}  // namespace swell::apps

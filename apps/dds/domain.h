@@ -1,0 +1,42 @@
+// A participant of a DDS domain, as a node of ROS 2 is one.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/dds/environment.h"
+
+namespace swell::apps {
+
+// All of a process is in one.
+class DdsDomain {
+ public:
+  // Opens its ports. Writers that write faster than readers take wait for them if `is_patient`;
+  // else they drop the oldest messages and never wait. Throws OptionError for a configuration that
+  // Cyclone does not take, std::runtime_error where the domain cannot be joined.
+  DdsDomain(const DdsEnvironment& environment, bool is_patient);
+  ~DdsDomain();
+  DdsDomain(const DdsDomain&) = delete;
+  DdsDomain& operator=(const DdsDomain&) = delete;
+
+  dds_entity_t participant() const { return participant_; }
+  bool is_patient() const { return is_patient_; }
+
+  // A topic of ROS 2 ("/camera/image_raw", "sensor_msgs/msg/Image"), under the names that its nodes
+  // give topics and types in DDS. Throws std::runtime_error.
+  dds_entity_t topic(const std::string& name, std::string_view type);
+
+  // Who can hear it, in words: the domain, the interfaces.
+  std::string audience() const;
+
+ private:
+  DdsEnvironment environment_;
+  bool is_patient_;
+  dds_entity_t domain_ = 0, participant_ = 0;
+  std::vector<std::string> interfaces_;
+};
+
+}  // namespace swell::apps

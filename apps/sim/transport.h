@@ -1,0 +1,34 @@
+// Transports between processes: what a simulation's messages go to and its inputs come from. Each
+// has a folder of its own, which defines its function below where its packages are.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "apps/messages/message_output.h"
+#include "apps/sim/inputs.h"
+
+namespace swell::apps {
+
+// It has to outlive what it gives.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+
+  // Publishes the topics.
+  virtual std::unique_ptr<MessageOutput> output(std::span<const Topic> topics) = 0;
+
+  // Takes poses of the bodies of `inputs`, and the clock.
+  virtual std::unique_ptr<InputSource> source(bool takes_clock, Inputs& inputs) = 0;
+
+  // Who can hear it, in one line; once it has an output.
+  virtual std::string audience() const = 0;
+};
+
+// ROS 2 over DDS (apps/dds), as its environment variables say. Where subscribers take less than is
+// published, it waits for them if `is_patient`; else they miss the oldest. Throws OptionError, also
+// where it is not built.
+std::unique_ptr<Transport> open_dds(bool is_patient);
+
+}  // namespace swell::apps
