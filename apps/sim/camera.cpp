@@ -71,8 +71,11 @@ class CameraSensor {
     const glm::dmat3 axes = {-pose.axes[1], pose.axes[0], pose.axes[2]};
     const View view = make_view(pose.position_m, axes, lens_, static_cast<float>(sensor_.near_m),
                                 width_px_, height_px_);
+    const std::vector<scene::GivenPose> given = world_.given_poses(moment);
+    options_.poses = given;
     render::render_frame(world_.world(), view, moment.t_s(), options_, workspace_, target_,
                          world_.workers());
+    options_.poses = {};
   }
 
   std::size_t pixels() const {

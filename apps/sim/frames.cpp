@@ -26,6 +26,10 @@ FramePose object_frame(const scene::ObjectPose& object) {
   return {object.position_world, ros_axes(object.world_from_object)};
 }
 
+scene::ObjectPose frame_object(const FramePose& frame) {
+  return {frame.position_m, {-frame.axes[1], frame.axes[0], frame.axes[2]}};
+}
+
 // Roll about x, then pitch about y, then yaw about z.
 FramePose mounting(const scene::Sensor& sensor) {
   const glm::dvec3 angles = sensor.rpy_rad;

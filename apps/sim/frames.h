@@ -22,6 +22,7 @@ FramePose operator*(const FramePose& outer, const FramePose& inner);
 // Of a thing that points along a heading as scenes have it: x ahead, y left, z up.
 FramePose heading_pose(const scene::Waypoint& at);
 FramePose object_frame(const scene::ObjectPose& object);
+scene::ObjectPose frame_object(const FramePose& frame);  // the other way
 
 // Of a sensor in its body's frame, or in "map".
 FramePose mounting(const scene::Sensor& sensor);

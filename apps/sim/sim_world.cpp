@@ -52,6 +52,18 @@ FramePose SimWorld::sensor_at(const scene::Sensor& sensor, const Moment& moment)
   return body ? body_at(*body, moment) * mounting(sensor) : mounting(sensor);
 }
 
+std::vector<scene::GivenPose> SimWorld::given_poses(const Moment& moment) const {
+  std::vector<scene::GivenPose> given;
+  const auto& objects = world_.scene().objects;
+  for (const scene::RigBody& body : rig_.bodies) {
+    if (!body.is_input || body.mount.empty() || !knows(body, moment)) continue;
+    const auto object = std::ranges::find(objects, body.mount, &scene::FloatingObject::name);
+    const FramePose pose = inputs_->at(body.frame, moment).value();
+    given.push_back({static_cast<std::size_t>(object - objects.begin()), frame_object(pose)});
+  }
+  return given;
+}
+
 double SimWorld::ground_distance(const glm::dvec3& from, const glm::dvec3& direction,
                                  double far_m) const {
   constexpr double kStep_m = 0.25;

@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <optional>
+#include <vector>
 
 #include "apps/sim/frames.h"
 #include "apps/sim/input_poses.h"
@@ -12,6 +13,7 @@
 #include "ocean/open_sea/sea.h"
 #include "ocean/water_surface.h"
 #include "scene/file/rig.h"
+#include "scene/objects.h"
 #include "scene/water.h"
 
 namespace swell::render {
@@ -48,6 +50,9 @@ class SimWorld {
   // In "map": of a body, and of a sensor. Their body's pose is known.
   FramePose body_at(const scene::RigBody& body, const Moment& moment);
   FramePose sensor_at(const scene::Sensor& sensor, const Moment& moment);
+
+  // The objects that bodies from outside are, where these are: for what draws or meets them.
+  std::vector<scene::GivenPose> given_poses(const Moment& moment) const;
 
   // How far a beam, a unit direction, goes until it meets the ground; infinity where it meets none
   // within far_m. It looks every 0.25 m.

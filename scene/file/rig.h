@@ -26,7 +26,8 @@ namespace swell::scene {
 
 struct Scene;
 
-// One of mount, position_m and path says where it is, or it comes from outside.
+// One of mount, position_m and path says where it is, or its pose comes from outside; then a mount
+// is the object that is put there.
 struct RigBody {
   std::string frame = "base_link";
   double rate_hz = 50.0;                   // of its transform, where it moves
@@ -34,7 +35,7 @@ struct RigBody {
   std::optional<glm::dvec3> position_m{};  // it stays there: east, north, up
   double heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;  // there: as Waypoint has them
   std::vector<Waypoint> path{};  // it goes along these as a camera does (scene/camera.h)
-  bool is_input = false;         // its pose comes from outside
+  bool is_input = false;
 
   bool moves() const { return !position_m; }
 };

@@ -162,25 +162,31 @@ class RigReader {
   void check_name(const std::string& key, const std::string& name, Names& taken) const {
     if (!is_ros_name(name))
       refuse_key(rig_, key, fmt::format("got \"{}\", allowed {}", shortened(name), kNames));
+    check_once(key, name, taken);
+  }
+
+  void check_once(const std::string& key, const std::string& name, Names& taken) const {
     if (std::ranges::count(taken, name) > 0)
-      refuse_key(rig_, key, fmt::format("got \"{}\" twice, allowed once", name));
+      refuse_key(rig_, key, fmt::format("got \"{}\" twice, allowed once", shortened(name)));
     taken.push_back(name);
   }
 
   void check_bodies() const {
-    Names taken = {"map", "odom"};
+    Names taken = {"map", "odom"}, moved;
     for (std::size_t n = 0; n < rig_.bodies.size(); ++n) {
       const RigBody& body = rig_.bodies[n];
       const std::string key = fmt::format("{}[{}]", kBodiesKey, n);
       check_name(key + ".frame", body.frame, taken);
+      const bool is_object = !body.mount.empty() && !body.is_input;
       const int poses =
-          !body.mount.empty() + body.position_m.has_value() + !body.path.empty() + body.is_input;
+          is_object + body.position_m.has_value() + !body.path.empty() + body.is_input;
       if (poses != 1)
         refuse_key(
             rig_, key,
             fmt::format(
                 "got {}, allowed one of mount, position_m, [[body.path]] and pose = \"input\"",
                 poses == 0 ? "no pose" : "several poses"));
+      if (body.is_input && !body.mount.empty()) check_once(key + ".mount", body.mount, moved);
       for (std::size_t i = 1; i < body.path.size(); ++i)
         if (!(body.path[i].t_s > body.path[i - 1].t_s))
           refuse_key(rig_, fmt::format("{}.{}[{}].t_s", key, kBodyPathKey, i),

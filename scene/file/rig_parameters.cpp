@@ -100,9 +100,11 @@ std::vector<Parameter<RigBody>> body_parameters() {
                      "there: positive lowers its right side"),
       BodyRow::choice(
           "pose", PoseName{},
-          "\"input\": it comes from outside (swell-sim --inputs) as \"map\" has it, and "
-          "sensors on the body wait for the first one; their IMU and odometry are of "
-          "differences of the last poses, 40 ms apart or as far as poses are"),
+          "\"input\": it comes from outside (swell-sim --inputs, --dds on) as \"map\" has it; "
+          "sensors on "
+          "the body wait for the first one, IMU and odometry are of differences of the "
+          "last poses, 40 ms apart or as far as poses are; an object that it mounts goes "
+          "with it"),
   };
 }
 

@@ -94,6 +94,12 @@ INSTANTIATE_TEST_SUITE_P(
                      "rig.toml:3: column 1: body[1].frame, got \"base_link\" twice, allowed once"},
         RigFaultCase{"[[body]]\nposition_m = [1, 2, 3]\nframe = \"odom\"\n",
                      "rig.toml:3: column 9: body[0].frame, got \"odom\" twice, allowed once"},
+        RigFaultCase{"[[body]]\nmount = \"a\"\npose = \"input\"\n[[body]]\nframe = \"b\"\nmount = "
+                     "\"a\"\npose = \"input\"\n",
+                     "rig.toml:6: column 9: body[1].mount, got \"a\" twice, allowed once"},
+        RigFaultCase{"[[body]]\nposition_m = [1, 2, 3]\npose = \"input\"\n",
+                     "rig.toml:1: column 1: body[0], got several poses, allowed one of mount, "
+                     "position_m, [[body.path]] and pose = \"input\""},
         RigFaultCase{"[[body]]\nposition_m = [1, 2, 3]\nheadng_deg = 2\n",
                      "rig.toml:3: column 1: unknown key, got 'body[0].headng_deg' (did you mean "
                      "'heading_deg'?), allowed frame, rate_hz, mount, position_m, heading_deg, "

@@ -1,6 +1,8 @@
 // Runs in lock-step with a clock from outside.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
 #include <map>
 #include <string>
 #include <vector>
@@ -77,9 +79,9 @@ struct RunOf {
 
 template <class Put>
 RunOf run_of(const std::string& rig_text, const RunSettings& settings, const Put& put,
-             int threads = 1) {
+             int threads = 1, const std::string& scene_text = kSea) {
   const scene::Rig rig = scene::parse_rig(rig_text, "rig.toml", {});
-  const render::World world(scene::parse_scene(kSea, "scene.toml"), threads);
+  const render::World world(scene::parse_scene(scene_text, "scene.toml"), threads);
   Workers workers(threads);
   InputPoses poses;
   SimWorld sim_world(world, rig, workers, &poses);
@@ -175,6 +177,45 @@ TEST(LockStep, StartsItsSensorsAgainWhereTheClockGoesBack) {
   for (const auto& entry : run.entries)
     if (entry.topic == "/probe") stamps.push_back(entry.stamp_ns / kStep_ns);
   EXPECT_EQ(stamps, (std::vector<std::int64_t>{1'100, 1'200, 200}));
+}
+
+TEST(LockStep, AnObjectIsDrawnWhereItsPoseFromOutsideIs) {
+  const std::string rig =
+      "[[body]]\nframe = \"boat\"\nmount = \"ball\"\npose = \"input\"\n[[camera]]\nname = \"eye\"\n"
+      "position_m = [0, 0, 2]\nwidth_px = 64\nheight_px = 64\nid = true\nrate_hz = 10\n";
+  const std::string sea =
+      std::string(kSea) + "[[object]]\nkind = \"sphere\"\nname = \"ball\"\nposition_m = [0, 500]\n";
+  const RunSettings settings = {.duration_s = 10.0, .is_clock_input = true};
+  std::vector<double> columns;  // the middle of the ball, along the picture
+  for (const double y_m : {2.0, 0.0, -2.0}) {
+    const RunOf run = run_of(
+        rig, settings,
+        [&](Inputs& inputs) {
+          inputs.put_pose(kClockTopic, "boat", boat_pose(0, {10.0, y_m, 2.0}));
+          inputs.put_clock(kClockTopic, 0);
+        },
+        1, sea);
+    const auto& image = std::get<msg::Image>(run.last.at("/eye/id"));
+    const auto id_at = [&](std::size_t pixel) {
+      std::int32_t id = 0;
+      std::memcpy(&id, image.data.data() + 4 * pixel, sizeof id);
+      return id;
+    };
+    const std::int32_t water = id_at(64 * 64 - 1);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t pixel = 0; pixel < 64 * 64; ++pixel) {
+      if (id_at(pixel) == 0 || id_at(pixel) == water) continue;
+      sum += static_cast<double>(pixel % 64) + 0.5;
+      count += 1.0;
+    }
+    ASSERT_GT(count, 5.0) << y_m;
+    columns.push_back(sum / count);
+  }
+  // The focal length is 32 px over the tangent of half of 50 degrees.
+  const double px_per_m = 32.0 / std::tan(25.0 * 3.14159265 / 180.0) / 10.0;
+  EXPECT_NEAR(columns[0], 32.0 - 2.0 * px_per_m, 1.0);
+  EXPECT_NEAR(columns[1], 32.0, 0.5);
+  EXPECT_NEAR(columns[2], 32.0 + 2.0 * px_per_m, 1.0);
 }
 
 }  // namespace
