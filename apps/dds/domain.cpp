@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <mutex>
 #include <stdexcept>
 #include <vector>
 
@@ -21,26 +22,6 @@ constexpr const char* kNeverWait =
 constexpr const char* kNoSharedMemory =
     ",<CycloneDDS><Domain><SharedMemory><Enable>false</Enable></SharedMemory></Domain>"
     "</CycloneDDS>";
-
-// What Cyclone says while this lives, in place of its lines on standard error.
-class HeardLog {
- public:
-  HeardLog() { dds_set_log_sink(hear, this); }
-  ~HeardLog() { dds_set_log_sink(nullptr, nullptr); }
-  HeardLog(const HeardLog&) = delete;
-  HeardLog& operator=(const HeardLog&) = delete;
-
-  // The first fault, without what stands before it (the thread, the domain).
-  std::string fault() const { return fault_.empty() ? "unknown fault" : one_line(fault_); }
-
- private:
-  static void hear(void* self, const dds_log_data_t* data) {
-    std::string& fault = static_cast<HeardLog*>(self)->fault_;
-    if (fault.empty()) fault = data->message;
-  }
-
-  std::string fault_;
-};
 
 // "sensor_msgs/msg/Image" is sensor_msgs::msg::dds_::Image_.
 std::string dds_type(std::string_view type) {
@@ -63,18 +44,48 @@ std::vector<std::string> interfaces_of(const ddsi_sertype* type) {
 
 }  // namespace
 
+// What Cyclone says while this lives, in place of its lines on standard error, which are as many as
+// damaged packets come in.
+class DdsDomain::Log {
+ public:
+  Log() { dds_set_log_sink(hear, this); }
+  ~Log() { dds_set_log_sink(nullptr, nullptr); }
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+
+  // What it said first. From now on the first line is told, as a warning.
+  std::string begin() {
+    const std::lock_guard lock(mutex_);
+    is_begun_ = true;
+    return first_.empty() ? "unknown fault" : first_;
+  }
+
+ private:
+  static void hear(void* self, const dds_log_data_t* data) {
+    Log& log = *static_cast<Log*>(self);
+    const std::lock_guard lock(log.mutex_);
+    if (!log.is_begun_ && log.first_.empty()) log.first_ = one_line(data->message);
+    if (!log.is_begun_ || log.is_told_) return;
+    log.is_told_ = true;
+    const std::string line = one_line(data->message).substr(0, 100);
+    std::fputs(fmt::format("warning: DDS: {}; more is not shown\n", line).c_str(), stderr);
+  }
+
+  std::mutex mutex_;
+  std::string first_;
+  bool is_begun_ = false, is_told_ = false;
+};
+
 DdsDomain::DdsDomain(const DdsEnvironment& environment, bool is_patient)
-    : environment_(environment), is_patient_(is_patient) {
-  const HeardLog log;
+    : environment_(environment), is_patient_(is_patient), log_(std::make_unique<Log>()) {
   const std::string configuration =
       (is_patient ? "" : kNeverWait) + environment.configuration + kNoSharedMemory;
   domain_ = dds_create_domain(environment.domain, configuration.c_str());
-  if (domain_ == DDS_RETCODE_ERROR || domain_ == DDS_RETCODE_BAD_PARAMETER)
-    throw OptionError(
-        fmt::format("CYCLONEDDS_URI: DDS domain {}: {}", environment.domain, log.fault()));
   if (domain_ >= 0) participant_ = dds_create_participant(environment.domain, nullptr, nullptr);
+  const std::string fault = fmt::format("DDS domain {}: {}", environment.domain, log_->begin());
+  if (domain_ == DDS_RETCODE_ERROR || domain_ == DDS_RETCODE_BAD_PARAMETER)
+    throw OptionError("CYCLONEDDS_URI: " + fault);
   if (domain_ >= 0 && participant_ >= 0) return;
-  const std::string fault = fmt::format("DDS domain {}: {}", environment.domain, log.fault());
   if (domain_ >= 0) dds_delete(domain_);
   throw std::runtime_error(fault);
 }

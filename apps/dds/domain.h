@@ -3,6 +3,7 @@
 
 #include <dds/dds.h>
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,8 +34,11 @@ class DdsDomain {
   std::string audience() const;
 
  private:
+  class Log;
+
   DdsEnvironment environment_;
   bool is_patient_;
+  std::unique_ptr<Log> log_;
   dds_entity_t domain_ = 0, participant_ = 0;
   std::vector<std::string> interfaces_;
 };

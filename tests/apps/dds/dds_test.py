@@ -7,8 +7,10 @@ import json
 import os
 import pathlib
 import queue
+import random
 import re
 import shutil
+import socket
 import struct
 import subprocess
 import sys
@@ -273,6 +275,31 @@ class Dds(unittest.TestCase):
             self.assertEqual(sim.returncode, 0, said)
             self.assertEqual(said.count("\n"), 1, said)
             self.assertIn(f"note: ROS 2 over DDS, domain {env['ROS_DOMAIN_ID']}: heard {words}", said)
+
+    def test_ten_thousand_damaged_packets_are_told_of_in_one_line(self):
+        env = environment(ROS_LOCALHOST_ONLY="1")
+        rig = self.folder / "probe.toml"
+        rig.write_text("[[wave_probe]]\nname = \"probe\"\n")
+        sim = self.sim("--duration", "4", env=env, rig=rig)
+        for text in sim.stderr:
+            if "ROS 2 over DDS" in text:
+                break
+        choice = random.Random(4)
+        head = b"RTPS\x02\x01\x01\x10" + bytes(12)
+        kinds = (0x06, 0x07, 0x08, 0x09, 0x0e, 0x15, 0x16)  # of submessages
+        port = 7400 + 250 * int(env["ROS_DOMAIN_ID"]) + 10  # discovery of the first on a machine; then its data
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            for n in range(10000):
+                body = choice.randbytes(choice.randrange(4, 200))
+                if n % 2:
+                    body = bytes((choice.choice(kinds), 5, body[2], 0)) + body[4:]
+                sender.sendto(head + body, ("127.0.0.1", port + n // 2 % 2))
+                if n % 100 == 0:
+                    time.sleep(0.002)
+        out, said = sim.communicate(timeout=60)
+        self.assertEqual((sim.returncode, out), (0, ""))
+        self.assertEqual(said.count("\n"), 1, said)
+        self.assertTrue(said.startswith("warning: DDS: "), said)
 
     @unittest.skipUnless(shutil.which("unshare") and shutil.which("ip"), "no unshare, no ip")
     def test_on_this_machine_alone_no_packet_leaves_the_loopback(self):
