@@ -6,6 +6,7 @@
 
 #include "apps/sim/camera.h"
 #include "apps/sim/geodetic.h"
+#include "apps/sim/lidar_sensor.h"
 #include "apps/sim/sim_world.h"
 #include "math/elementary.h"
 #include "math/enum_table.h"
@@ -145,6 +146,7 @@ Publish pose_sensor(const Sensor& sensor, SimWorld& world, Simulation& simulatio
 using Maker = Publish (*)(const Sensor&, SimWorld&, Simulation&);
 constexpr auto kMakers = enum_table<SensorKind, Maker>({
     {SensorKind::kCamera, camera},
+    {SensorKind::kLidar, lidar},
     {SensorKind::kAltimeter, range_sensor},
     {SensorKind::kEchoSounder, range_sensor},
     {SensorKind::kWaveProbe, wave_probe},

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "render/measure/lidar.h"
 #include "render/world/world.h"
 #include "scene/camera_path.h"
+#include "terrain/ground_rays.h"
 #include "terrain/height_grid.h"
 
 namespace swell::apps {
@@ -12,6 +14,7 @@ namespace swell::apps {
 SimWorld::SimWorld(const render::World& world, const scene::Rig& rig, Workers& workers,
                    const InputPoses* inputs)
     : world_(world), rig_(rig), workers_(workers), inputs_(inputs), water_(world.water()) {}
+SimWorld::~SimWorld() = default;
 
 const ocean::WaterSurface& SimWorld::water_at(const Moment& moment) {
   for (const KeptWater& kept : kept_)
@@ -65,29 +68,18 @@ std::vector<scene::GivenPose> SimWorld::given_poses(const Moment& moment) const 
 }
 
 double SimWorld::ground_distance(const glm::dvec3& from, const glm::dvec3& direction,
-                                 double far_m) const {
-  constexpr double kStep_m = 0.25;
+                                 double far_m) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  if (!water_.terrain()) return kNone;
-  const auto is_under = [&](double distance_m) {
-    const glm::dvec3 p = from + distance_m * direction;
-    return p.z < terrain::height_at(*water_.terrain(), glm::dvec2(p));
-  };
-  double over = 0.0, under = kNone;
-  for (int step = 0; over < far_m; ++step) {
-    const double at = std::min(step * kStep_m, far_m);
-    if (is_under(at)) {
-      under = at;
-      break;
-    }
-    if (at == far_m) return kNone;
-    over = at;
-  }
-  for (int step = 0; step < 40 && over < under; ++step) {
-    const double middle = 0.5 * (over + under);
-    (is_under(middle) ? under : over) = middle;
-  }
-  return under;
+  const terrain::HeightGrid* const land = water_.terrain();
+  if (!land) return kNone;
+  if (from.z < terrain::height_at(*land, glm::dvec2(from))) return 0.0;
+  if (!ground_) ground_ = std::make_unique<terrain::GroundRays>(*land);
+  return ground_->meet(from, direction, far_m).value_or(kNone);
+}
+
+render::Lidar& SimWorld::lidar() {
+  if (!lidar_) lidar_ = std::make_unique<render::Lidar>(world_, workers_);
+  return *lidar_;
 }
 
 }  // namespace swell::apps

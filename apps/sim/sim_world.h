@@ -3,6 +3,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,7 +18,11 @@
 #include "scene/water.h"
 
 namespace swell::render {
+class Lidar;
 class World;
+}  // namespace swell::render
+namespace swell::terrain {
+class GroundRays;
 }
 
 namespace swell::apps {
@@ -29,6 +34,7 @@ class SimWorld {
   // bodies that come from outside; one without it never has a pose.
   SimWorld(const render::World& world, const scene::Rig& rig, Workers& workers,
            const InputPoses* inputs = nullptr);
+  ~SimWorld();
 
   SimWorld(const SimWorld&) = delete;
   SimWorld& operator=(const SimWorld&) = delete;
@@ -54,9 +60,12 @@ class SimWorld {
   // The objects that bodies from outside are, where these are: for what draws or meets them.
   std::vector<scene::GivenPose> given_poses(const Moment& moment) const;
 
-  // How far a beam, a unit direction, goes until it meets the ground; infinity where it meets none
-  // within far_m. It looks every 0.25 m.
-  double ground_distance(const glm::dvec3& from, const glm::dvec3& direction, double far_m) const;
+  // How far a beam, a unit direction, goes until it meets the ground, under water too; infinity
+  // where it meets none within far_m, 0 where it begins under it.
+  double ground_distance(const glm::dvec3& from, const glm::dvec3& direction, double far_m);
+
+  // What scans the world, for all lidars: made for the first one.
+  render::Lidar& lidar();
 
  private:
   // Those that an IMU of 100 Hz comes back to: 40 ms before and after. Each has some MB.
@@ -72,6 +81,8 @@ class SimWorld {
   Workers& workers_;
   const InputPoses* inputs_;
   scene::Water water_;
+  std::unique_ptr<terrain::GroundRays> ground_;  // made for the first that asks
+  std::unique_ptr<render::Lidar> lidar_;
   std::array<KeptWater, kKept> kept_;
   std::size_t next_ = 0;  // of them to be used again
 };

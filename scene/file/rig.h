@@ -42,6 +42,7 @@ struct RigBody {
 
 enum class SensorKind : std::uint8_t {
   kCamera,
+  kLidar,
   kAltimeter,
   kEchoSounder,
   kWaveProbe,
@@ -49,6 +50,27 @@ enum class SensorKind : std::uint8_t {
   kGnss,
   kOdometry,
   kPose,
+};
+
+// What beams a lidar has: those of a model that turns, as render::find_spinning_model() has it, or
+// an even grid.
+enum class LidarPattern : std::uint8_t { kVlp16, kHdl32e, kOs1x64, kOs1x128, kGrid };
+inline constexpr auto kLidarPatterns =
+    enum_words<LidarPattern>({{LidarPattern::kVlp16, "vlp-16"},
+                              {LidarPattern::kHdl32e, "hdl-32e"},
+                              {LidarPattern::kOs1x64, "os1-64"},
+                              {LidarPattern::kOs1x128, "os1-128"},
+                              {LidarPattern::kGrid, "grid"}});
+
+// As render::LidarScan has them.
+struct LidarSettings {
+  LidarPattern pattern = LidarPattern::kHdl32e;
+  int columns = 1024, rows = 16;                                // rows: of grids
+  double fov_x_rad = radians(70.0), fov_y_rad = radians(25.0);  // of grids
+  double reach_m = 0.0, range_noise_m = 0.0;
+  std::uint64_t seed = 1;
+  bool rolling_shutter = false;  // beams leave one after the other until the next scan begins
+  int moments = 1;               // of the world in that time
 };
 
 struct Sensor {
@@ -64,9 +86,14 @@ struct Sensor {
   double fov_y_rad = radians(50.0);
   double near_m = 0.25;
   std::vector<double> distortion = std::vector<double>(5);  // k1, k2, p1, p2, k3
-  bool depth = false, classes = false, ids = false;         // pictures of labels besides
+  bool depth = false;                                       // a picture of it besides
 
-  // These are for altimeters and echo sounders, which measure along x.
+  // For cameras and lidars: labels besides.
+  bool classes = false, ids = false;
+
+  LidarSettings lidar{};
+
+  // These are for lidars, and for altimeters and echo sounders, which measure along x.
   double nearest_m = 0.2, farthest_m = 100.0;
   double beam_rad = 0.0;  // as the message has it: one ray is measured
 };
@@ -84,6 +111,7 @@ struct SensorKindFacts {
 inline constexpr glm::dvec3 kLooksDown{0.0, 0.5 * kPi, 0.0};
 inline constexpr auto kSensorKinds = enum_table<SensorKind, SensorKindFacts>({
     {SensorKind::kCamera, {.name = "camera", .rate_hz = 20.0}},
+    {SensorKind::kLidar, {.name = "lidar"}},
     {SensorKind::kAltimeter, {.name = "altimeter", .rpy_rad = kLooksDown}},
     {SensorKind::kEchoSounder, {.name = "echo_sounder", .rpy_rad = kLooksDown}},
     {SensorKind::kWaveProbe, {.name = "wave_probe"}},

@@ -211,6 +211,14 @@ class RigReader {
         refuse_key(rig_, key + ".nearest_m",
                    fmt::format("got {}, allowed less than farthest_m, {}", sensor.nearest_m,
                                sensor.farthest_m));
+      if (sensor.lidar.moments > 1 && !sensor.lidar.rolling_shutter)
+        refuse_key(rig_, key + ".moments",
+                   fmt::format("got {} without rolling_shutter, allowed 1", sensor.lidar.moments));
+      constexpr double kSlowestTurn_hz = 0.25;  // points have their time in 32 bits
+      if (sensor.lidar.rolling_shutter && sensor.rate_hz < kSlowestTurn_hz)
+        refuse_key(rig_, key + ".rolling_shutter",
+                   fmt::format("got true at {} Hz, allowed at {} Hz and more", sensor.rate_hz,
+                               kSlowestTurn_hz));
     }
   }
 

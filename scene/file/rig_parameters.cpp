@@ -38,6 +38,12 @@ Parameter<Sensor> rpy_parameter() {
   return row;
 }
 
+void add_labels(Keys& keys, std::string_view classes, std::string_view ids) {
+  keys.push_back(
+      SensorRow::plain<bool>("class", ParameterKind::kBoolean, SWELL_FIELD(classes), classes));
+  keys.push_back(SensorRow::plain<bool>("id", ParameterKind::kBoolean, SWELL_FIELD(ids), ids));
+}
+
 void add_camera(Keys& keys) {
   keys.push_back(SensorRow::integer("width_px", ParameterKind::kInteger, {1, 8192, "px"},
                                     SWELL_FIELD(width_px), "of the picture"));
@@ -49,12 +55,48 @@ void add_camera(Keys& keys) {
                                    "nearer things are cut off"));
   keys.push_back(SensorRow::list("distortion", {-100, 100}, 5, 5, SWELL_FIELD(distortion),
                                  "k1, k2, p1, p2, k3 of the lens, as OpenCV has them"));
-  const auto add_picture = [&](std::string_view key, auto field, std::string_view meaning) {
-    keys.push_back(SensorRow::plain<bool>(key, ParameterKind::kBoolean, field, meaning));
+  keys.push_back(SensorRow::plain<bool>("depth", ParameterKind::kBoolean, SWELL_FIELD(depth),
+                                        "publish depth along the view axis in metres, 32FC1"));
+  add_labels(keys, "publish the label \"class\", 16UC1", "publish the label \"id\", 32SC1");
+}
+
+struct LidarPatternName {
+  static constexpr auto words = kLidarPatterns;
+  auto& operator()(auto& sensor) const { return sensor.lidar.pattern; }
+};
+
+void add_lidar(Keys& keys) {
+  const auto add_size = [&](std::string_view key, double most, auto field,
+                            std::string_view meaning) {
+    keys.push_back(SensorRow::integer(key, ParameterKind::kInteger, {1, most}, field, meaning));
   };
-  add_picture("depth", SWELL_FIELD(depth), "publish depth along the view axis in metres, 32FC1");
-  add_picture("class", SWELL_FIELD(classes), "publish the label \"class\", 16UC1");
-  add_picture("id", SWELL_FIELD(ids), "publish the label \"id\", 32SC1");
+  keys.push_back(SensorRow::choice("pattern", LidarPatternName{},
+                                   "its beams: a model that turns clockwise, or an even grid"));
+  add_size("columns", 4096, SWELL_FIELD(lidar.columns), "of a turn or a grid");
+  add_size("rows", 512, SWELL_FIELD(lidar.rows), "of a grid, from the top");
+  keys.push_back(SensorRow::angle("fov_x_deg", {0.001, 360, "deg"}, SWELL_FIELD(lidar.fov_x_rad),
+                                  "width of a grid, whose beams are the middles of even cells"));
+  keys.push_back(SensorRow::angle("fov_y_deg", {0.001, 180, "deg"}, SWELL_FIELD(lidar.fov_y_rad),
+                                  "height of a grid"));
+  keys.push_back(SensorRow::number("nearest_m", {0, 10000, "m"}, SWELL_FIELD(nearest_m),
+                                   "what is nearer has no return"));
+  keys.push_back(SensorRow::number("farthest_m", {0.01, 10000, "m"}, SWELL_FIELD(farthest_m),
+                                   "what is farther has no return"));
+  keys.push_back(SensorRow::number(
+      "reach_m", {0, 10000, "m"}, SWELL_FIELD(lidar.reach_m),
+      "where a surface of reflectance 0.1 is seen half of the time; 0: all that is met is seen"));
+  keys.push_back(SensorRow::number("range_noise_m", {0, 10, "m"}, SWELL_FIELD(lidar.range_noise_m),
+                                   "standard deviation"));
+  keys.push_back(SensorRow::integer("seed", ParameterKind::kInteger, {0, kMaxSeed},
+                                    SWELL_FIELD(lidar.seed),
+                                    "of noise and losses, with the beam and the stamp"));
+  keys.push_back(SensorRow::plain<bool>(
+      "rolling_shutter", ParameterKind::kBoolean, SWELL_FIELD(lidar.rolling_shutter),
+      "beams leave one column (of a grid: row) after the other until the next scan begins"));
+  add_size("moments", 64, SWELL_FIELD(lidar.moments),
+           "with it: how many times the world is moved in a scan; 1: it stands as at the stamp");
+  add_labels(keys, "points have the label \"class\", uint16",
+             "points have the label \"id\", uint32");
 }
 
 void add_ranges(Keys& keys) {
@@ -140,6 +182,9 @@ std::vector<Parameter<Sensor>> sensor_parameters(SensorKind kind) {
   switch (kind) {
     case SensorKind::kCamera:
       add_camera(keys);
+      break;
+    case SensorKind::kLidar:
+      add_lidar(keys);
       break;
     case SensorKind::kAltimeter:
     case SensorKind::kEchoSounder:

@@ -52,8 +52,8 @@ INSTANTIATE_TEST_SUITE_P(
         RigFaultCase{"[[camra]]\n",
                      "rig.toml:1: column 3: unknown key, got 'camra' (did you mean 'camera'?), "
                      "allowed origin.latitude_deg, origin.longitude_deg, origin.altitude_m, "
-                     "clock_hz, body, camera, altimeter, echo_sounder, wave_probe, imu, gnss, "
-                     "odometry, pose"},
+                     "clock_hz, body, camera, lidar, altimeter, echo_sounder, wave_probe, imu, "
+                     "gnss, odometry, pose"},
         RigFaultCase{"[[imu]]\nname = \"imu\"\nrate_h = 3\n",
                      "rig.toml:3: column 1: unknown key, got 'imu[0].rate_h' (did you mean "
                      "'rate_hz'?), allowed name, body, rate_hz, position_m, rpy_deg"},
@@ -80,8 +80,8 @@ INSTANTIATE_TEST_SUITE_P(
         RigFaultCase{"origin = 3\n",
                      "rig.toml:1: column 1: unknown key, got 'origin', allowed "
                      "origin.latitude_deg, origin.longitude_deg, origin.altitude_m, clock_hz, "
-                     "body, camera, altimeter, echo_sounder, wave_probe, imu, gnss, odometry, "
-                     "pose"},
+                     "body, camera, lidar, altimeter, echo_sounder, wave_probe, imu, gnss, "
+                     "odometry, pose"},
         RigFaultCase{"[origin]\nlatitude_deg = 91\n",
                      "rig.toml:2: column 16: origin.latitude_deg, got 91, allowed -90 to 90 deg"},
         RigFaultCase{"\n[[body]]\n",
@@ -136,6 +136,15 @@ INSTANTIATE_TEST_SUITE_P(
         RigFaultCase{"[[altimeter]]\nname = \"a\"\nfarthest_m = 0.1\n",
                      "rig.toml:1: column 1: altimeter[0].nearest_m, got 0.2, allowed less than "
                      "farthest_m, 0.1"},
+        RigFaultCase{"[[lidar]]\nname = \"a\"\npattern = \"vlp\"\n",
+                     "rig.toml:3: column 11: lidar[0].pattern, got \"vlp\", allowed \"vlp-16\", "
+                     "\"hdl-32e\", \"os1-64\", \"os1-128\" or \"grid\""},
+        RigFaultCase{"[[lidar]]\nname = \"a\"\nmoments = 2\n",
+                     "rig.toml:3: column 11: lidar[0].moments, got 2 without rolling_shutter, "
+                     "allowed 1"},
+        RigFaultCase{"[[lidar]]\nname = \"a\"\nrolling_shutter = true\nrate_hz = 0.1\n",
+                     "rig.toml:3: column 19: lidar[0].rolling_shutter, got true at 0.1 Hz, "
+                     "allowed at 0.25 Hz and more"},
         RigFaultCase{"[[imu]\n",
                      "rig.toml:1: column 7: syntax error, got 'Error while parsing table header: "
                      "expected ']', saw '\\n'', allowed TOML 1.0"}));

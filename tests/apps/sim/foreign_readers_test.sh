@@ -21,12 +21,13 @@ export SWELL_NODE_MODULES="$modules"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$bin/swell-sim" --scene "$source/scenes/harbour.toml" --rig "$source/scenes/rigs/harbour_boat.toml" \
-  --rig-set "camera[0].width_px=96" --rig-set "camera[0].height_px=54" --record "$work/run.mcap"
+  --rig-set "camera[0].width_px=96" --rig-set "camera[0].height_px=54" \
+  --rig-set "lidar[0].columns=64" --record "$work/run.mcap"
 
 # Both readers' lines; messages of one stamp may come in any order.
 ours() { python3 -B "$here/mcap_reader.py" "$1" | sort; }
 ours "$work/run.mcap" >"$work/ours"
-[ "$(wc -l <"$work/ours")" -eq 6301 ] || { echo "wrong: $(wc -l <"$work/ours") messages"; exit 1; }
+[ "$(wc -l <"$work/ours")" -eq 6401 ] || { echo "wrong: $(wc -l <"$work/ours") messages"; exit 1; }
 node "$here/read_mcap.mjs" "$work/run.mcap" | sort | diff - "$work/ours"
 node "$here/read_mcap.mjs" "$work/run.mcap" --chunks | sort | diff - "$work/ours"
 

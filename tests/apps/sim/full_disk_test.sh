@@ -21,7 +21,8 @@ wrong() {
 }
 record() {
   "$bin/swell-sim" --scene "$source/scenes/harbour.toml" --rig "$source/scenes/rigs/harbour_boat.toml" \
-    --rig-set "camera[0].width_px=160" --rig-set "camera[0].height_px=90" --record "$1" --duration 2
+    --rig-set "camera[0].width_px=160" --rig-set "camera[0].height_px=90" \
+    --rig-set "lidar[0].columns=64" --record "$1" --duration 2
 }
 if record "$work/disk/run.mcap" 2>"$work/line"; then wrong "done on a full disk"; fi
 [ "$(wc -l <"$work/line")" -eq 1 ] && grep -q '^error: .*run.mcap.partial: No space left' "$work/line" ||

@@ -19,7 +19,8 @@ import mcap_reader
 BIN, SOURCE = (pathlib.Path(path) for path in sys.argv[1:3])
 SCENE, RIG = SOURCE / "scenes/harbour.toml", SOURCE / "scenes/rigs/harbour_boat.toml"
 WIDTH, HEIGHT = 96, 54
-SMALL = ("--rig-set", f"camera[0].width_px={WIDTH}", "--rig-set", f"camera[0].height_px={HEIGHT}")
+SMALL = ("--rig-set", f"camera[0].width_px={WIDTH}", "--rig-set", f"camera[0].height_px={HEIGHT}",
+         "--rig-set", "lidar[0].columns=64")
 
 SEA = """
 [sky]
@@ -84,7 +85,8 @@ class Recording(unittest.TestCase):
         self.assertEqual(counts, {
             "/tf_static": 1, "/tf": 500, "/odom": 500, "/imu/data": 1000, "/gnss/fix": 100, "/clock": 1000,
             "/echo_sounder": 100, "/gauge": 100, "/bow_wave": 1000, "/buoy_wave": 1000, "/camera/image_raw": 200,
-            "/camera/camera_info": 200, "/camera/depth": 200, "/camera/class": 200, "/camera/id": 200})
+            "/camera/camera_info": 200, "/camera/depth": 200, "/camera/class": 200, "/camera/id": 200,
+            "/lidar/points": 100})
         by_topic = collections.defaultdict(list)
         for message in recording.messages:
             by_topic[message.topic].append(message)
