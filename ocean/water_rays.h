@@ -2,6 +2,7 @@
 // as many single ones (ocean/water_surface.h has the single ray).
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <span>
@@ -11,14 +12,27 @@
 
 namespace swell::ocean {
 
-// What a frame's surface stays within, without its wakes, and each of these in its square: less
-// than all wakes at any time may add anywhere.
+// What a frame's surface stays within, without its wakes, and these by squares: less than all waves
+// at any time may add anywhere.
 struct FrameBounds {
-  struct Wake {
-    glm::dvec2 low{0.0}, high{0.0};
+  struct Square {
     double height_m = 0.0, slope = 0.0;
   };
-  double lowest_m = 0.0, highest_m = 0.0, steepest = 0.0;
+  struct Wake {
+    static constexpr int kSquares = 8;  // a side
+    glm::dvec2 corner_m{0.0};
+    double square_m = 1.0;
+    double height_m = 0.0;                                           // anywhere
+    std::array<Square, std::size_t{kSquares} * kSquares> squares{};  // by rows
+  };
+  // The surface lies within rest_m of one that is no steeper: short waves are steep but low.
+  struct Detail {
+    double rest_m = 0.0, steepest = 0.0;
+  };
+  static constexpr std::size_t kMostDetails = 3;
+
+  double lowest_m = 0.0, highest_m = 0.0;
+  std::vector<Detail> details;  // the first one: of the surface itself
   std::vector<Wake> wakes;
   // Of rivers and lakes, whose levels end at their banks: rays walk over the higher of water and
   // ground, which has no steps. Else null.
@@ -31,7 +45,7 @@ struct GroundSlopes {
   double shallow = 1.0, all = 1.0;
 };
 
-// 0.1 ms a wake. The parts outlive the bounds.
+// 0.1 ms a wake and 20 us a patch of 128 x 128 samples. The parts outlive the bounds.
 FrameBounds frame_bounds(const WaterParts& water, const SeaFrame& frame,
                          const GroundSlopes& ground);
 

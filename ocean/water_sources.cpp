@@ -154,16 +154,27 @@ void SeaWaves::weigh(const SeaFrame& frame, Points p, Room room) const {
 }
 
 void SeaWaves::fade(Points p, Room room) const {
+  const glm::dvec2 within_rim_m = (0.5 - kEdgePart) * water.area.limits_m();
+  const auto edge_at = [&](glm::dvec2 at) {
+    const glm::dvec2 aside_m = glm::abs(at - water.area.centre_m);
+    return aside_m.x <= within_rim_m.x && aside_m.y <= within_rim_m.y ? 1.0f : edge(water.area, at);
+  };
   if (!water.land) {
-    for (std::size_t i = 0; i < p.size(); ++i) room[i] *= edge(water.area, p[i]);
+    for (std::size_t i = 0; i < p.size(); ++i) room[i] *= edge_at(p[i]);
     return;
   }
   std::array<float, kPointChunk> ground;
   terrain::sample_heights(*water.land, p, std::span(ground).first(p.size()));
+  const float fades_m = 0.2f + wave_height_m;
+  if (!water.inland) {
+    for (std::size_t i = 0; i < p.size(); ++i)
+      room[i] *= edge_at(p[i]) * std::min(1.0f, std::max(-ground[i], 0.0f) / fades_m);
+    return;
+  }
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const auto inland = water.inland ? water.inland->at(p[i]) : std::nullopt;
+    const auto inland = water.inland->at(p[i]);
     const float depth = std::max(inland ? inland->depth_m : -ground[i], 0.0f);
-    room[i] *= edge(water.area, p[i]) * std::min(1.0f, depth / (0.2f + wave_height_m));
+    room[i] *= edge_at(p[i]) * std::min(1.0f, depth / fades_m);
     if (inland && !inland_too) room[i] *= inland->sea_share;
   }
 }
@@ -233,9 +244,16 @@ void WakeWaves::add_heights(const SeaFrame& frame, Points p, Room,
   if (frame.wakes.count == 0) return;
   std::array<float, kPointChunk> z{}, weight;
   add_wake_heights(frame.wakes, p, std::span(z).first(p.size()));
-  if (std::all_of(z.begin(), z.begin() + p.size(), [](float x) { return x == 0.0f; })) return;
-  weigh(p, std::span(weight).first(p.size()));
-  for (std::size_t i = 0; i < p.size(); ++i) height_m[i] += z[i] * weight[i];
+  std::array<glm::dvec2, kPointChunk> wavy;
+  std::array<std::size_t, kPointChunk> place;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (z[i] == 0.0f) continue;
+    wavy[count] = p[i];
+    place[count++] = i;
+  }
+  weigh(std::span(wavy).first(count), std::span(weight).first(count));
+  for (std::size_t k = 0; k < count; ++k) height_m[place[k]] += z[place[k]] * weight[k];
 }
 
 void WakeWaves::add_slopes(const SeaFrame& frame, Points p, Room,

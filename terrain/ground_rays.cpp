@@ -126,15 +126,16 @@ std::optional<double> GroundRays::meet(glm::dvec3 origin_world, glm::dvec3 along
     return std::nullopt;
   const Walk on_grid = walk.over({0.0, 0.0}, cells_);
   if (on_grid.empty()) return march(walk);
-  if (const auto met = march(walk.between(0.0, on_grid.from))) return met;
+  if (on_grid.from > walk.from)
+    if (const auto met = march(walk.between(0.0, on_grid.from))) return met;
   if (const auto met = meet_in_block(on_grid, levels_, {0, 0})) return met;
-  return march(walk.between(on_grid.to, farthest_m));
+  return on_grid.to < walk.to ? march(walk.between(on_grid.to, farthest_m)) : std::nullopt;
 }
 
 std::optional<double> GroundRays::meet_in_block(const Walk& walk, int level,
                                                 glm::ivec2 block) const {
-  if (std::min(walk.z(walk.from), walk.z(walk.to)) > static_cast<double>(highest(level, block)))
-    return std::nullopt;
+  const double lowest_m = std::min(walk.z(walk.from), walk.z(walk.to));
+  if (lowest_m > static_cast<double>(highest(level, block))) return std::nullopt;
   if (level == 0) return meet_in_cell(walk, block);
   struct Child {
     Walk walk;
@@ -146,6 +147,7 @@ std::optional<double> GroundRays::meet_in_block(const Walk& walk, int level,
   for (int k = 0; k < 4; ++k) {
     const glm::ivec2 child = 2 * block + glm::ivec2(k & 1, k >> 1), low = child * side;
     if (low.x >= cells_.x || low.y >= cells_.y) continue;
+    if (lowest_m > static_cast<double>(highest(level - 1, child))) continue;
     const Walk part = walk.over(low, glm::min(low + side, cells_));
     if (part.empty()) continue;
     std::size_t at = count++;  // in the order in which the ray comes to them

@@ -234,14 +234,15 @@ void advance_wake_velocity(const WakeFrame& wakes, WakeField field, WakeFrame& v
 }
 
 // Between samples heights are bilinear: steepest along the edges of a cell.
-WakeBounds bounds_of_wake(const WakeWindow& window) {
+WakeBounds bounds_of_wake(const WakeWindow& window, glm::ivec2 low, glm::ivec2 high) {
   float highest_m = 0.0f, step_x_m = 0.0f, step_y_m = 0.0f;
-  for (std::size_t j = 0; j + 1 < kWindowSide; ++j)
-    for (std::size_t i = 0; i + 1 < kWindowSide; ++i) {
-      const float* const z = &window.height_m[j * kWindowSide + i];
+  for (int j = low.y; j <= high.y; ++j)
+    for (int i = low.x; i <= high.x; ++i) {
+      const float* const z =
+          &window.height_m[static_cast<std::size_t>(j) * kWindowSide + static_cast<std::size_t>(i)];
       highest_m = std::max(highest_m, std::abs(z[0]));
-      step_x_m = std::max(step_x_m, std::abs(z[1] - z[0]));
-      step_y_m = std::max(step_y_m, std::abs(z[kWindowSide] - z[0]));
+      if (i < high.x) step_x_m = std::max(step_x_m, std::abs(z[1] - z[0]));
+      if (j < high.y) step_y_m = std::max(step_y_m, std::abs(z[kWindowSide] - z[0]));
     }
   const float per_m = kWakeSamples / static_cast<float>(window.length_m);
   return {.height_m = highest_m,

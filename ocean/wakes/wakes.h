@@ -27,8 +27,9 @@ void advance_wakes(std::span<const Disturbance> some, std::span<const Disturbanc
                    double gravity_mps2, double t_s, WakeFrame& frame, Workers& workers,
                    const terrain::ShoreMap* shore = nullptr);
 
-// What a window's heights stay within, their wavelength aside. 0.1 ms.
-WakeBounds bounds_of_wake(const WakeWindow& window);
+// What a window's heights stay within between samples `low` and `high`, in [0, kWakeSamples), their
+// wavelength aside. 0.1 ms for all.
+WakeBounds bounds_of_wake(const WakeWindow& window, glm::ivec2 low, glm::ivec2 high);
 
 // Fills `velocity` with the windows of `wakes`, where one component of the water's velocity takes
 // the place of the heights.
