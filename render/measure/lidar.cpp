@@ -189,12 +189,9 @@ void Lidar::State::start(const LidarScan& scan, std::span<const std::uint32_t> b
       body(first, std::min(beams.size(), first + kBeamsAtOnce));
     });
   };
-  const auto ray_of = [&](const Way& way) {
-    return shapes::WorldRay{way.origin_world, way.along,
-                            std::min(scan.most_m, way.target.distance_m)};
-  };
   // Below all water a ray has met either the water or the ground.
-  const auto above_water = [&](shapes::WorldRay ray) {
+  const auto ray_of = [&](const Way& way) {
+    shapes::WorldRay ray{way.origin_world, way.along, std::min(scan.most_m, way.target.distance_m)};
     if (ray.along.z < 0.0)
       ray.farthest_m = std::min(ray.farthest_m, (bounds.lowest_m - ray.origin.z) / ray.along.z);
     return ray;
@@ -210,7 +207,7 @@ void Lidar::State::start(const LidarScan& scan, std::span<const std::uint32_t> b
       Way& way = ways[i];
       way = {pose.position_world, glm::normalize(pose.world_from_sensor * along), along, {}};
       meet_objects(world, shapes, objects, ray_of(way), way.target);
-      meet_ground(world, shapes, above_water(ray_of(way)), way.target);
+      meet_ground(world, shapes, ray_of(way), way.target);
       if (world.forest) TreeTargets::list_near(*world.forest, tree_boxes, ray_of(way), near_these);
     }
     std::ranges::sort(near_these);

@@ -84,6 +84,41 @@ TEST(Lidar, MeetsAFlatSeaAndNothingInTheSky) {
   EXPECT_TRUE(std::isnan(r[3].p_sensor.x));
 }
 
+// Cox and Munk's facets on a flat sea: F p / (4 cos^5 theta) of what a white surface's 1 / pi is,
+// p = exp(-tan^2 theta / s^2) / (pi s^2), s^2 = 0.003 + 0.00512 U.
+TEST(Lidar, IntensitiesOfAFlatSeaInAWindAreThoseOfItsFormula) {
+  scene::Scene scene;
+  scene.sea.wind_speed_mps = 8.0;
+  scene.sea.spectrum = false;
+  scene.sea.whitecaps = 0.0;
+  std::vector<LidarBeam> beams;
+  for (int n = 0; n < 6; ++n) beams.push_back({0.7 * n, -0.5 * kPiRef + 0.08 * n});
+  const Returns r = scanned(world_of(scene), {.begin = {{0.0, 0.0, 6.0}}, .beams = beams});
+  for (int n = 0; n < 6; ++n) {
+    const double theta = 0.08 * n, s2 = 0.003 + 0.00512 * 8.0;
+    const double facets = std::exp(-std::pow(std::tan(theta), 2.0) / s2) / (kPiRef * s2);
+    const double echo = kPiRef * 0.0198 * facets / (4.0 * std::pow(std::cos(theta), 5.0));
+    EXPECT_NEAR(r[static_cast<std::size_t>(n)].intensity, echo, 1e-4 * echo + 1e-6) << n;
+  }
+}
+
+TEST(Lidar, FogTakesAwayLightOnBothWays) {
+  constexpr float kPerMetre = 0.02f;
+  scene::Scene scene;
+  scene.sea.wind_speed_mps = 0.0;
+  scene.objects = {fixed(scene::ObjectKind::kBox, {20.0, 0.0}, 4.0)};
+  const std::vector<LidarBeam> beams = {{0.0, 0.0}, {0.0, -0.5 * kPiRef}};
+  const LidarScan scan = {.begin = {{0.0, 0.0, 1.0}}, .beams = beams};
+  const Returns clear = scanned(world_of(scene), scan);
+  scene.air.fog_top_m = 100.0;
+  scene.air.attenuation_per_m = glm::vec3(kPerMetre);
+  const Returns foggy = scanned(world_of(scene), scan);
+  EXPECT_NEAR(clear[0].range_m, 18.0, 1e-4);
+  EXPECT_NEAR(foggy[0].intensity / clear[0].intensity,
+              std::exp(-36.0 * static_cast<double>(kPerMetre)), 1e-5);
+  EXPECT_EQ(foggy[0].range_m, clear[0].range_m);
+}
+
 TEST(Lidar, MeetsABoxWhereItStands) {
   scene::FloatingObject box = fixed(scene::ObjectKind::kBox, {20.0, 0.0}, 4.0);
   const std::vector<LidarBeam> beams = {{0.0, 0.0}, {0.05, 0.02}, {0.0, -0.1}, {0.2, 0.0}};
