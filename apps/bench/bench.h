@@ -14,6 +14,7 @@ struct BenchMode {
 };
 
 BenchMode add_bench_frame(CommandLine& program);
+BenchMode add_bench_lidar(CommandLine& program);
 BenchMode add_bench_lod(CommandLine& program);
 BenchMode add_bench_optics(CommandLine& program);
 BenchMode add_bench_papers(CommandLine& program);  // apps/papers
