@@ -172,6 +172,34 @@ struct HullLoads {
   Load buoyancy, froude_krylov;
 };
 
+// A beam of a lidar, where it is, what else it is asked, and what a beam got back (swell_lidar,
+// which has their ranges). The sensor's frame is that of REP 103: x ahead, y left, z up.
+struct LidarBeam {
+  double azimuth_deg = 0.0, elevation_deg = 0.0;
+  double time_s = 0.0;  // it leaves so long after the scan's time
+};
+struct LidarPose {
+  Point3 position_m = {};
+  std::array<double, 4> quaternion_wxyz = {1.0, 0.0, 0.0, 0.0};
+};
+struct LidarOptions {
+  std::optional<LidarPose> end = {};  // where it is duration_s later; none: it stays
+  double duration_s = 0.0;
+  int moments = 1;
+  double least_m = 0.0, most_m = 120.0;
+  double reach_m = 0.0, range_noise_m = 0.0;
+  std::uint64_t seed = 1;
+  std::vector<Pose> poses = {};
+  std::vector<Disturbance> disturbances = {};
+};
+struct LidarReturn {
+  float range_m = 0.0f;  // infinity: nothing came back
+  float intensity = 0.0f;
+  float incidence_deg = 0.0f;
+  std::uint32_t id = 0, klass = 0;
+  std::array<float, 3> point_m = {};  // in the sensor's frame; NaN: nothing
+};
+
 // What a point of a picture shows (swell_pick).
 struct Pick {
   swell_shown what = SWELL_SHOWS_SKY;
@@ -619,6 +647,10 @@ class World {
   std::optional<Hit> ray(Point3 origin_m, Point3 direction, double t_s,
                          double max_distance_m = 1e5);
 
+  // What the beams of a lidar get back.
+  std::vector<LidarReturn> lidar(double t_s, const LidarPose& pose, ListOf<LidarBeam> beams,
+                                 const LidarOptions& options = {});
+
   // For calls of swell.h.
   const swell_world* handle() const { return world_.get(); }
   // Made with the first call that needs one.
@@ -756,6 +788,65 @@ inline std::optional<Hit> World::ray(Point3 origin_m, Point3 direction, double t
   door::check(swell_ray(session(), t_s, origin_m.data(), direction.data(), max_distance_m, &hit));
   if (!hit.hits) return std::nullopt;
   return Hit{door::array_of(hit.position_m), hit.distance_m, hit.from_above != 0};
+}
+
+inline std::vector<LidarReturn> World::lidar(double t_s, const LidarPose& pose,
+                                             ListOf<LidarBeam> beams, const LidarOptions& options) {
+  static_assert(sizeof(LidarBeam) == 3 * sizeof(double));
+  const std::size_t count = beams.size();
+  std::vector<float> range(count), intensity(count), incidence(count), point(3 * count);
+  std::vector<std::uint32_t> id(count), klass(count);
+  const std::vector<swell_pose> poses = door::c_poses(options.poses);
+  const std::vector<swell_disturbance> c_list = door::c_disturbances(options.disturbances);
+  auto c = door::sized<swell_lidar>();
+  c.t_s = t_s;
+  door::set(c.position_m, pose.position_m);
+  door::set(c.quaternion_wxyz, pose.quaternion_wxyz);
+  c.beams = beams.empty() ? nullptr : &beams.front().azimuth_deg;
+  c.count = count;
+  const LidarPose end = options.end.value_or(pose);
+  c.duration_s = options.duration_s;
+  door::set(c.end_position_m, end.position_m);
+  door::set(c.end_quaternion_wxyz, end.quaternion_wxyz);
+  c.moments = options.moments;
+  c.least_m = options.least_m, c.most_m = options.most_m;
+  c.reach_m = options.reach_m, c.range_noise_m = options.range_noise_m;
+  c.seed = options.seed;
+  c.poses = poses.data(), c.pose_count = poses.size();
+  c.disturbances = c_list.data(), c.disturbance_count = c_list.size();
+  c.range_m = range.data(), c.intensity = intensity.data(), c.incidence_deg = incidence.data();
+  c.id = id.data(), c.klass = klass.data(), c.point_m = point.data();
+  door::check(swell_scan(session(), &c));
+  std::vector<LidarReturn> returns(count);
+  for (std::size_t i = 0; i < count; ++i)
+    returns[i] = {range[i], intensity[i], incidence[i],
+                  id[i],    klass[i],     {point[3 * i], point[3 * i + 1], point[3 * i + 2]}};
+  return returns;
+}
+
+// A clockwise turn of a model whose beams are known ("hdl-32e"), column after column from the
+// lowest beam up, and an even grid, rows from the top: swell_spinning_beams(), swell_grid_beams().
+inline std::vector<LidarBeam> spinning_beams(const std::string& model, int columns = 1024,
+                                             double start_deg = 0.0, double duration_s = 0.1) {
+  std::vector<LidarBeam> beams(static_cast<std::size_t>(columns > 0 ? columns : 0) *
+                               swell_lidar_beams(model.c_str()));
+  LidarBeam none;
+  door::check(swell_spinning_beams(model.c_str(), columns, start_deg, duration_s,
+                                   beams.empty() ? &none.azimuth_deg : &beams.front().azimuth_deg,
+                                   beams.size()));
+  return beams;
+}
+inline std::vector<LidarBeam> grid_beams(PictureSize size, double fov_x_deg, double fov_y_deg,
+                                         double duration_s = 0.0) {
+  std::vector<LidarBeam> beams;
+  if (size.width_px > 0 && size.height_px > 0)
+    beams.resize(static_cast<std::size_t>(size.width_px) *
+                 static_cast<std::size_t>(size.height_px));
+  LidarBeam none;
+  door::check(swell_grid_beams(size.width_px, size.height_px, fov_x_deg, fov_y_deg, duration_s,
+                               beams.empty() ? &none.azimuth_deg : &beams.front().azimuth_deg,
+                               beams.size()));
+  return beams;
 }
 
 // Every key of scene files.

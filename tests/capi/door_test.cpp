@@ -101,6 +101,32 @@ TEST(Door, AsksTheWater) {
   EXPECT_FALSE(world.ray({1.0, 2.0, 10.0}, {0.0, 0.0, -3.0}, 5.0, 9.0).has_value());
 }
 
+TEST(Door, ScansWithALidar) {
+  swell::World world = swell::World::of_text(
+      "[sea]\nspectrum = false\n[[object]]\nkind = \"box\"\nmotion = \"fixed\"\n"
+      "position_m = [20, 0]\nsize_m = [4, 4, 4]\ndraught = 0.5\n");
+  const swell::LidarPose pose{{0.0, 0.0, 1.0}};
+  const auto returns = world.lidar(0.0, pose, {{0.0, 0.0}, {90.0, -30.0}, {45.0, 20.0}});
+  ASSERT_EQ(returns.size(), 3u);
+  EXPECT_NEAR(returns[0].range_m, 18.0f, 1e-4f);
+  EXPECT_NEAR(returns[0].point_m[0], 18.0f, 1e-4f);
+  EXPECT_EQ(returns[1].id, 1u);
+  EXPECT_NEAR(returns[1].incidence_deg, 60.0f, 1e-2f);
+  EXPECT_TRUE(std::isinf(returns[2].range_m));
+  swell::LidarOptions options;
+  options.most_m = 10.0;
+  options.end = swell::LidarPose{{0.0, 0.0, 3.0}};
+  options.duration_s = 0.5;
+  const auto moved = world.lidar(0.0, pose, {{0.0, 0.0}, {0.0, -90.0, 0.25}}, options);
+  EXPECT_TRUE(std::isinf(moved[0].range_m));
+  EXPECT_NEAR(moved[1].range_m, 2.0f, 1e-4f);
+
+  EXPECT_EQ(swell::spinning_beams("hdl-32e", 8).size(), 8u * 32u);
+  EXPECT_NEAR(swell::grid_beams({8, 8}, 80.0, 40.0)[0].azimuth_deg, 35.0, 1e-9);
+  EXPECT_EQ(status_of([] { swell::spinning_beams("none"); }), SWELL_BAD_ARGUMENT);
+  EXPECT_EQ(status_of([&] { world.lidar(0.0, {{2e6, 0.0, 0.0}}, {}); }), SWELL_BAD_ARGUMENT);
+}
+
 TEST(Door, AsksBelowTheSurface) {
   swell::World world = swell::World::of_text(
       "[sea]\nspectrum = false\n[[sea.sines]]\namplitude_m = 1.0\nwavelength_m = 60.0\n");
