@@ -104,6 +104,8 @@ class Calls {
   void ask_below();
   void press_hull();
   void send_ray();
+  void scan();
+  void list_beams();
   void list_poses();
   void list_names();
 
@@ -392,6 +394,53 @@ void Calls::send_ray() {
                     bytes_.number(), hit.pointer(bytes_)));
 }
 
+void Calls::scan() {
+  constexpr std::size_t kMostBeams = 12;
+  const std::size_t beams = bytes_.index(kMostBeams + 1);
+  std::array<double, 3 * kMostBeams> beam_list{};
+  fill(beam_list.data(), 3 * beams);
+  std::array<float, kMostBeams> range_m{}, intensity{}, incidence_deg{};
+  std::array<float, 3 * kMostBeams> point_m{};
+  std::array<std::uint32_t, kMostBeams> id{}, klass{};
+  const auto poses = this->poses();
+  const auto disturbances = this->disturbances();
+  Sized<swell_lidar> lidar;
+  lidar->t_s = time_s();
+  lidar->position_m[2] = 4.0, lidar->quaternion_wxyz[0] = 1.0;
+  lidar->end_quaternion_wxyz[1] = 1.0;
+  if (bytes_.coin()) fill(lidar->position_m, 3);
+  if (bytes_.coin()) fill(lidar->quaternion_wxyz, 4);
+  lidar->beams = null_too(beam_list.data()), lidar->count = beams;
+  if (!lidar->beams) lidar->count = bytes_.take<std::size_t>();
+  if (bytes_.coin()) lidar->duration_s = bytes_.number();
+  if (bytes_.coin()) fill(lidar->end_position_m, 3), fill(lidar->end_quaternion_wxyz, 4);
+  lidar->moments = static_cast<std::int32_t>(bytes_.index(4)) - 1;
+  if (bytes_.coin()) lidar->least_m = bytes_.number(), lidar->most_m = bytes_.number();
+  if (bytes_.coin()) lidar->reach_m = bytes_.number(), lidar->range_noise_m = bytes_.number();
+  lidar->seed = bytes_.take<std::uint64_t>();
+  lidar->poses = null_too(poses.data()), lidar->pose_count = poses.size();
+  lidar->disturbances = disturbances.data(), lidar->disturbance_count = disturbances.size();
+  lidar->range_m = null_too(range_m.data()), lidar->intensity = null_too(intensity.data());
+  lidar->incidence_deg = null_too(incidence_deg.data()), lidar->point_m = null_too(point_m.data());
+  lidar->id = null_too(id.data()), lidar->klass = null_too(klass.data());
+  if (!taken(swell_scan(session(), lidar.pointer(bytes_)))) return;
+  for (std::size_t i = 0; i < beams; ++i) {
+    expect(range_m[i] >= 0.0f, "a range is a length, or infinite");
+    expect(intensity[i] >= 0.0f && intensity[i] <= 1.0f, "an intensity is a part");
+    expect(incidence_deg[i] >= 0.0f && incidence_deg[i] <= 90.01f, "surfaces face the beam");
+  }
+}
+
+void Calls::list_beams() {
+  std::array<double, 3 * 64> beams{};
+  const std::string model = names(swell_lidar_name);
+  swell_lidar_beams(null_too(model.c_str()));
+  checked(swell_spinning_beams(null_too(model.c_str()), count(4), bytes_.number(), bytes_.number(),
+                               null_too(beams.data()), bytes_.index(65)));
+  checked(swell_grid_beams(count(9), count(9), bytes_.number(), bytes_.number(), bytes_.number(),
+                           null_too(beams.data()), bytes_.index(65)));
+}
+
 void Calls::list_poses() {
   std::array<swell_pose, 4> poses{};
   for (swell_pose& pose : poses) pose.size = sizeof pose;
@@ -411,7 +460,8 @@ void Calls::make_all() {
       &Calls::change_picture, &Calls::draw,       &Calls::pick,
       &Calls::look,           &Calls::ask,        &Calls::look_at_picture,
       &Calls::send_ray,       &Calls::list_poses, &Calls::list_names,
-      &Calls::ask_below,      &Calls::press_hull};
+      &Calls::ask_below,      &Calls::press_hull, &Calls::scan,
+      &Calls::list_beams};
   checked(swell_session_create(worlds()[bytes_.index(kScenes.size())], 1, &sessions_[0]));
   checked(swell_picture_create(&pictures_[0]));
   for (int n = 0; n < kMostCalls && !bytes_.empty(); ++n)
