@@ -14,7 +14,7 @@ mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 cd "$(dirname "$0")/.."
 preset=release
-scripts/setup.sh viewer tests python release ${arm64:+arm64}
+scripts/setup.sh viewer dds gazebo tests python release ${arm64:+arm64}
 # The time of all files in the packages.
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
 export SOURCE_DATE_EPOCH

@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 
-scripts/setup.sh viewer tests python film browser cluster docs release
+scripts/setup.sh viewer tests python gazebo film browser cluster docs release
 cmake --preset release
 cmake --build --preset release
 [ $# -gt 0 ] || set -- -LE slow
