@@ -12,10 +12,10 @@ constexpr double kNotGiven_s = 0.0;
 // What others follow from the ones that were given.
 void complete(SimOptions& options) {
   RunSettings& run = options.run;
-  if (options.dds && !run.is_clock_input) run.realtime = true;
+  const bool is_endless = run.is_clock_input || options.has_transport();
+  if (options.has_transport() && !run.is_clock_input) run.realtime = true;
   if (run.duration_s == kNotGiven_s)
-    run.duration_s =
-        run.is_clock_input || options.dds ? std::numeric_limits<double>::infinity() : 10.0;
+    run.duration_s = is_endless ? std::numeric_limits<double>::infinity() : 10.0;
 }
 
 void check_together(const SimOptions& options) {
@@ -23,11 +23,13 @@ void check_together(const SimOptions& options) {
   if (options.scene.path.empty())
     throw OptionError("command line: --scene, got none, allowed --scene FILE");
   if (options.rig.empty()) throw OptionError("command line: --rig, got none, allowed --rig FILE");
-  if (options.record.empty() && !options.run.measure && !options.dds)
-    throw OptionError("command line: got nothing to do, allowed --record, --dds on or --measure");
+  if (options.record.empty() && !options.run.measure && !options.has_transport())
+    throw OptionError(
+        "command line: got nothing to do, allowed --record, --dds on, --gazebo on or --measure");
   if (options.run.is_clock_input && !options.takes_inputs())
     throw OptionError(
-        "command line: --clock: got input without --inputs or --dds on, allowed with one");
+        "command line: --clock: got input without --inputs, --dds on or --gazebo on, allowed with "
+        "one");
   if (options.run.is_clock_input && options.run.realtime)
     throw OptionError("command line: --realtime: got --clock input with it, allowed --clock own");
   if (!options.inputs.empty() && !options.run.is_clock_input && !options.run.realtime)
@@ -59,7 +61,7 @@ std::optional<SimOptions> parse_sim_options(int argc, char** argv) {
   line.add_text("--record", "FILE", options.record, "Write ROS 2 messages: .mcap");
   options.run.duration_s = kNotGiven_s;
   add_number(line, "--duration", options.run.duration_s, 1e-3, 1e6,
-             "Seconds, from 0 on: 10; endless with --clock input, --dds on");
+             "Seconds, from 0 on: 10; endless with --clock input, --dds on, --gazebo on");
   line.add_flag("--realtime", options.run.realtime, "Wait for each stamp");
   line.add_value(one_of_two("--clock", "CLOCK", "own", "input", options.run.is_clock_input,
                             "own, or input: lock-step with /clock or --inputs"));
@@ -67,6 +69,10 @@ std::optional<SimOptions> parse_sim_options(int argc, char** argv) {
                 "Clock and poses (--rig-keys); - is standard input");
   line.add_value(one_of_two("--dds", "WHETHER", "off", "on", options.dds,
                             "on: ROS 2 topics (--rig-keys); off: no open port"));
+  line.add_value(one_of_two("--gazebo", "WHETHER", "off", "on", options.gazebo,
+                            "on: Gazebo's transport (--rig-keys); off: no open port"));
+  line.add_text("--gazebo-poses", "TOPIC", options.gazebo_poses, "Instead of /model/FRAME/pose");
+  line.need("--gazebo-poses", "--gazebo");
   line.add_flag("--measure", options.run.measure, "Print what each sensor costs");
   add_machine_options(line, options.threads, options.simd);
   if (!line.parse(argc, argv)) return std::nullopt;

@@ -17,13 +17,15 @@ struct SimOptions {
   std::vector<std::string> rig_settings;
   std::string record;  // file; empty: none
   std::string inputs;  // file, "-" or empty: none
-  bool dds = false;
+  bool dds = false, gazebo = false;
+  std::string gazebo_poses;  // topic
   RunSettings run;
   bool rig_keys = false;
   int threads = available_cpus();
   std::string simd;
 
-  bool takes_inputs() const { return !inputs.empty() || dds; }
+  bool has_transport() const { return dds || gazebo; }
+  bool takes_inputs() const { return !inputs.empty() || has_transport(); }
 };
 
 // Nothing if --help or --version was asked for. Throws OptionError.

@@ -7,6 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "apps/gazebo/gazebo_inputs.h"
+#include "apps/gazebo/gazebo_output.h"
 #include "apps/mcap/mcap_output.h"
 #include "apps/shared/options.h"
 #include "apps/shared/output_file.h"
@@ -49,13 +51,44 @@ std::vector<std::string> input_frames(const scene::Rig& rig) {
 void check_inputs(const SimOptions& options, const scene::Rig& rig) {
   for (std::size_t n = 0; n < rig.bodies.size(); ++n)
     if (rig.bodies[n].is_input && !options.takes_inputs())
-      scene::refuse_key(rig, fmt::format("body[{}].pose", n),
-                        "got \"input\" without --inputs or --dds on, allowed with one");
+      scene::refuse_key(
+          rig, fmt::format("body[{}].pose", n),
+          "got \"input\" without --inputs, --dds on or --gazebo on, allowed with one");
 }
+
+class GazeboSource : public InputSource {
+ public:
+  GazeboSource(const SimOptions& options, Inputs& inputs)
+      : inputs_(inputs),
+        gazebo_({inputs.frames(), options.gazebo_poses, options.run.is_clock_input},
+                takers_of(inputs)) {
+    inputs.begin();
+  }
+  ~GazeboSource() override {
+    inputs_.stop();  // it may wait for the loop
+  }
+
+ private:
+  static GazeboTakers takers_of(Inputs& inputs) {
+    return {
+        [&inputs](std::string_view topic, std::int64_t t_ns) { inputs.put_clock({topic}, t_ns); },
+        [&inputs](std::string_view topic, std::string_view frame, std::int64_t t_ns,
+                  const msg::Pose& pose) {
+          const auto& [p, q] = pose;
+          inputs.put_pose({topic}, frame, {t_ns, {p.x, p.y, p.z}, {q.w, q.x, q.y, q.z}});
+        },
+        [&inputs](std::string_view topic, const std::string& what) {
+          inputs.refuse({topic}, what);
+        }};
+  }
+
+  Inputs& inputs_;
+  GazeboInputs gazebo_;
+};
 
 void run(const SimOptions& options) {
   if (options.rig_keys) {
-    fmt::print("{}{}{}", scene::rig_keys_text(), kJsonInputsText, kRosInputsText);
+    fmt::print("{}{}{}{}", scene::rig_keys_text(), kJsonInputsText, kRosInputsText, kGazeboText);
     return;
   }
   select_simd(options.simd);
@@ -85,6 +118,14 @@ void run(const SimOptions& options) {
     outputs.push_back(dds->output(simulation.topics));
     if (options.inputs.empty()) sources.push_back(dds->source(options.run.is_clock_input, inputs));
     std::fputs(fmt::format("note: {}\n", dds->audience()).c_str(), stderr);
+  }
+
+  if (options.gazebo) {
+    auto gazebo = std::make_unique<GazeboOutput>(simulation.topics, world.water());
+    std::fputs(fmt::format("note: {}\n", gazebo->audience()).c_str(), stderr);
+    outputs.push_back(std::move(gazebo));
+    if (options.inputs.empty() && (options.run.is_clock_input || !inputs.frames().empty()))
+      sources.push_back(std::make_unique<GazeboSource>(options, inputs));
   }
 
   take_signals();
