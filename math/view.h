@@ -7,10 +7,41 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/glm.hpp>
 
 namespace swell {
+
+// A camera's matrix K in pixels: a pinhole camera shows a point at x right, y down and z ahead at
+// (fx x / z + cx, fy y / z + cy) in the window, whose upper left corner is (0, 0). Where the middle
+// of the first pixel is (0, 0), as OpenCV has it, cx and cy are less by 0.5 than here.
+struct Intrinsics {
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
+  bool operator==(const Intrinsics&) const = default;
+};
+
+enum class ProjectionKind : std::uint8_t {
+  kPerspective,      // a pinhole camera: View has its tangents
+  kFisheye,          // Kannala and Brandt's lens
+  kEquirectangular,  // all directions: longitude across, latitude from pole to pole down
+};
+
+// How a picture shows directions. A fisheye shows what is at the angle theta from the axis at
+// theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8) focal lengths from the principal
+// point.
+// Source: Kannala, Brandt, A generic camera model and calibration method for conventional,
+// wide-angle, and fish-eye lenses, 2006, eq. 6, with OpenCV's names (cv::fisheye).
+struct Projection {
+  ProjectionKind kind = ProjectionKind::kPerspective;
+  // These are for fisheyes.
+  Intrinsics k{};
+  std::array<double, 4> bend{};  // k1 to k4
+  double half_fov_rad = 0.0;     // what lies further from the axis is not shown, (0, pi]
+
+  bool is_wide() const { return kind != ProjectionKind::kPerspective; }
+  bool operator==(const Projection&) const = default;
+};
 
 struct View {
   int width_px = 0, height_px = 0;
@@ -24,6 +55,16 @@ struct View {
   float tan_middle_x = 0.0f, tan_middle_y = 0.0f;
   float near_m = 0.1f;
   glm::mat4 clip_from_rel{1.0f};
+  // Of a wide picture, which is drawn as several perspective ones, only the eye, the axes, the size
+  // and near_m count besides its projection.
+  Projection projection{};
+  // Where the view is a part of a larger picture: the height that counts as that of a picture for
+  // what is given in picture heights; 0: its own.
+  float whole_height_px = 0.0f;
+
+  float picture_height_px() const {
+    return whole_height_px > 0.0f ? whole_height_px : static_cast<float>(height_px);
+  }
 
   // The direction through window point (x_px, y_px), scaled so that its depth (component along
   // forward) is 1: p_rel = depth * ray.
@@ -62,13 +103,6 @@ glm::dmat3 camera_axes(const glm::dquat& world_from_optical);
 struct Lens {
   double tan_half_x = 1.0, tan_half_y = 1.0;
   double tan_middle_x = 0.0, tan_middle_y = 0.0;
-};
-
-// A pinhole camera's matrix K in pixels: a point at x right, y down and z ahead lies at
-// (fx x / z + cx, fy y / z + cy) in the window, whose upper left corner is (0, 0). Where the middle
-// of the first pixel is (0, 0), as OpenCV has it, cx and cy are less by 0.5 than here.
-struct Intrinsics {
-  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
 };
 
 // The lens whose window spans fov_y_rad in (0, pi) from edge to edge, with square pixels.

@@ -161,7 +161,7 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.images.reflection = in.reflection;
   water.images.refraction = in.refraction;
   water.images.distortion_px =
-      static_cast<float>(in.world.scene.water.distortion * camera.height_px);
+      static_cast<float>(in.world.scene.water.distortion * camera.picture_height_px());
   if (in.world.scene.water.distortion_factor == scene::DistortionFactor::kPaper) {
     water.images.distortion_by_sine = 0.5f / camera.tan_half_y;
     water.images.least_distortion = 0.0f;
@@ -173,7 +173,7 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
 
 }  // namespace
 
-float max_distortion_px(const View& window) { return 0.1f * static_cast<float>(window.height_px); }
+float max_distortion_px(const View& window) { return 0.1f * window.picture_height_px(); }
 
 void fill(const MaterialInputs& in, const RenderView& view, Water& water) {
   if (!shows(view.kind, Water::kSurface)) return;
