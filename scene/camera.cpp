@@ -6,6 +6,7 @@
 
 #include "math/check.h"
 #include "math/elementary.h"
+#include "math/projection.h"
 #include "math/with_ieee.h"
 #include "scene/camera_path.h"
 #include "scene/scene.h"
@@ -59,12 +60,23 @@ glm::dmat3 axes_of(const Camera& camera, const Waypoint& pose) {
   return camera_axes(glm::dquat(q[0], q[1], q[2], q[3]));
 }
 
+// K, stretched to a picture of this size.
+Intrinsics given_intrinsics(const Camera& camera, int width_px, int height_px) {
+  SWELL_CHECK(camera.focal_px && camera.size_px, "focal_px without size_px");
+  const glm::dvec2 centre_px = camera.principal_px.value_or(0.5 * *camera.size_px);
+  const glm::dvec2 scale = glm::dvec2(width_px, height_px) / *camera.size_px;
+  const glm::dvec2 f = scale * *camera.focal_px, c = scale * centre_px;
+  return {f.x, f.y, c.x, c.y};
+}
+
 View view_from(const Camera& camera, glm::dvec3 eye_m, const glm::dmat3& world_from_camera,
                int width_px, int height_px) {
   const glm::dvec3 eye_world =
       glm::clamp(eye_m, glm::dvec3(-kMaxDistance), glm::dvec3(kMaxDistance));
-  return make_view(eye_world, world_from_camera, camera_lens(camera, width_px, height_px),
-                   static_cast<float>(camera.near_m), width_px, height_px);
+  View view = make_view(eye_world, world_from_camera, camera_lens(camera, width_px, height_px),
+                        static_cast<float>(camera.near_m), width_px, height_px);
+  view.projection = camera_projection(camera, width_px, height_px);
+  return view;
 }
 
 }  // namespace
@@ -98,11 +110,17 @@ Waypoint pose_on_path(std::span<const Waypoint> path, double t_s) {
 
 Lens camera_lens(const Camera& camera, int width_px, int height_px) {
   if (!camera.focal_px) return lens_of_fov(camera.fov_y_rad, width_px, height_px);
-  SWELL_CHECK(camera.size_px.has_value(), "focal_px without size_px");
-  const glm::dvec2 centre_px = camera.principal_px.value_or(0.5 * *camera.size_px);
-  const glm::dvec2 scale = glm::dvec2(width_px, height_px) / *camera.size_px;
-  const glm::dvec2 f = scale * *camera.focal_px, c = scale * centre_px;
-  return lens_of_intrinsics({f.x, f.y, c.x, c.y}, width_px, height_px);
+  return lens_of_intrinsics(given_intrinsics(camera, width_px, height_px), width_px, height_px);
+}
+
+Projection camera_projection(const Camera& camera, int width_px, int height_px) {
+  Projection projection = {.kind = camera.projection};
+  if (camera.projection != ProjectionKind::kFisheye) return projection;
+  const glm::dvec4& k = camera.fisheye_k;
+  const std::array<double, 4> bend = {k[0], k[1], k[2], k[3]};
+  projection = fisheye_of_fov(camera.fisheye_fov_rad, bend, width_px, height_px);
+  if (camera.focal_px) projection.k = given_intrinsics(camera, width_px, height_px);
+  return projection;
 }
 
 View camera_view(const Camera& camera, double t_s, int width_px, int height_px) {

@@ -1,9 +1,10 @@
-// Where the camera of a scene is and looks at a time: a fixed pose, a straight path with constant
-// speed and turn rate, a path through waypoints, or a place on a floating object.
+// What the camera of a scene is, and where it is and looks at a time: a fixed pose, a straight path
+// with constant speed and turn rate, a path through waypoints, or a place on a floating object.
 //
 //   const View view = scene::camera_view(scene, water.at(t_s, frame, workers), t_s, 1280, 720);
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -24,6 +25,16 @@ struct Waypoint {
   double heading_rad = 0.0;  // clockwise from north
   double pitch_rad = 0.0;    // up positive
   double roll_rad = 0.0;     // positive lowers the right side
+};
+
+// What the camera's sensor adds to a picture (render/picture/sensor_noise.h).
+struct SensorNoise {
+  double full_well_e = 0.0;  // electrons that a pixel's channel holds; 0: there is no noise
+  double iso = 100.0;        // at 100 the brightest light fills the well, at 200 half of it ...
+  double read_noise_e = 3.0;
+  std::uint64_t seed = 1;
+
+  bool operator==(const SensorNoise&) const = default;
 };
 
 struct Camera {
@@ -47,6 +58,14 @@ struct Camera {
   // (the middle if there is none). A picture of another size shows the same, stretched to it.
   std::optional<glm::dvec2> focal_px{}, principal_px{}, size_px{};
 
+  // How the picture shows directions (math/projection.h). Of fisheyes: the full angle of the cone
+  // that is shown, which touches the picture's nearer edges where no focal length is given; and k1
+  // to k4. Fisheyes and equirectangular pictures have no field of view from edge to edge, and the
+  // latter no focal length.
+  ProjectionKind projection = ProjectionKind::kPerspective;
+  double fisheye_fov_rad = radians(180.0);
+  glm::dvec4 fisheye_k{0.0};
+
   // The name of the object that carries the camera; empty: none. The eye is then not at eye_m but
   // at an offset from the object's origin, and all directions are given in the object's axes in
   // place of the world's. No velocity, no path.
@@ -57,10 +76,14 @@ struct Camera {
   // evenly spread, are drawn.
   double exposure_s = 0.0;
   int shutter_samples = 1;
+  SensorNoise noise{};
 };
 
 // The lens for a picture of at least 1 x 1 pixels.
 Lens camera_lens(const Camera& camera, int width_px, int height_px);
+
+// The projection likewise.
+Projection camera_projection(const Camera& camera, int width_px, int height_px);
 
 // The view at time t_s [s] (finite; taken as 1e12 beyond that) of a picture of at least 1 x 1
 // pixels. The eye stays within 1e7 m of the origin along each axis. Not of mounted cameras.

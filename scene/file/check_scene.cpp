@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/projection.h"
 #include "ocean/inland/drift.h"
 #include "ocean/open_sea/map_waves.h"
 #include "scene/coast.h"
@@ -200,6 +201,18 @@ Fault fault_of_coast_line(const TerrainDescription& terrain) {
   return std::nullopt;
 }
 
+Fault fault_of_projection(const Camera& camera) {
+  if (camera.projection == ProjectionKind::kEquirectangular && camera.focal_px)
+    return SceneFault{"camera.focal_px", "it for camera.projection \"equirectangular\"",
+                      "it for the others"};
+  const glm::dvec4& k = camera.fisheye_k;
+  if (camera.projection == ProjectionKind::kFisheye &&
+      !is_one_to_one({k[0], k[1], k[2], k[3]}, 0.5 * camera.fisheye_fov_rad))
+    return SceneFault{"camera.fisheye_k", fmt::format("[{}, {}, {}, {}]", k[0], k[1], k[2], k[3]),
+                      "a lens whose radius grows with the angle up to half of fisheye_fov_deg"};
+  return std::nullopt;
+}
+
 // Which way the camera looks and what it sees is said in one way only.
 Fault fault_of_camera(const Camera& camera) {
   if (camera.quaternion && !(std::abs(glm::length(*camera.quaternion) - 1.0) < 1e-3))
@@ -220,7 +233,7 @@ Fault fault_of_camera(const Camera& camera) {
     return alone("camera.principal_px", "camera.focal_px");
   if (camera.mount.empty() && camera.mount_offset_m != glm::dvec3(0.0))
     return alone("camera.mount_offset_m", "camera.mount");
-  return std::nullopt;
+  return fault_of_projection(camera);
 }
 
 Fault fault_of_names(const Scene& scene) {

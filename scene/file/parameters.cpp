@@ -18,39 +18,37 @@ using Rows = std::vector<Parameter<Scene>>;
 Rows camera_rows() {
   return {
       SceneRow::vector("camera.eye_m", {-1e6, 1e6, "m"}, SWELL_FIELD(camera.eye_m),
-                       "position at t = 0: east, north, up from mean sea level"),
+                       "at t = 0: east, north, up from mean sea level"),
       SceneRow::angle("camera.heading_deg", {-360, 360, "deg"}, SWELL_FIELD(camera.heading_rad),
-                      "where the camera looks, clockwise from north"),
+                      "clockwise from north"),
       SceneRow::angle("camera.pitch_deg", {-89, 89, "deg"}, SWELL_FIELD(camera.pitch_rad),
                       "up positive"),
       SceneRow::angle("camera.roll_deg", {-180, 180, "deg"}, SWELL_FIELD(camera.roll_rad),
-                      "about the line it looks along; positive lowers its right side"),
+                      "positive lowers its right side"),
       SceneRow::angle("camera.fov_y_deg", {1, 170, "deg"}, SWELL_FIELD(camera.fov_y_rad),
-                      "field of view from the lower to the upper edge"),
+                      "from the lower to the upper edge, of perspective cameras"),
       SceneRow::number("camera.near_m", {0.01, 10, "m"}, SWELL_FIELD(camera.near_m),
                        "what is nearer is cut off"),
       SceneRow::vector("camera.velocity_mps", {-1000, 1000, "m/s"},
                        SWELL_FIELD(camera.velocity_mps), "constant, in world axes"),
       SceneRow::angle("camera.turn_deg_s", {-360, 360, "deg/s"}, SWELL_FIELD(camera.turn_rad_s),
-                      "change of heading; the velocity does not turn with it"),
-      SceneRow::optional_vector(
-          "camera.quaternion", {-1, 1}, SWELL_FIELD(camera.quaternion),
-          "[w, x, y, z] of length 1: the rotation to the world (east, north, up) from the "
-          "camera's optical frame (right, down, ahead); excludes heading_deg, pitch_deg, roll_deg "
-          "and turn_deg_s"),
+                      "of the heading; the velocity does not turn"),
+      SceneRow::optional_vector("camera.quaternion", {-1, 1}, SWELL_FIELD(camera.quaternion),
+                                "[w, x, y, z] of length 1: the rotation to the world from the "
+                                "optical frame (right, down, "
+                                "ahead); excludes the angles and turn_deg_s"),
       SceneRow::optional_vector("camera.focal_px", {1, 1e6, "pixels"}, SWELL_FIELD(camera.focal_px),
-                                "[fx, fy] of the camera matrix for a picture of size_px; excludes "
-                                "fov_y_deg"),
+                                "[fx, fy] for a picture of size_px; excludes fov_y_deg"),
       SceneRow::optional_vector(
           "camera.principal_px", {-1e5, 1e5, "pixels"}, SWELL_FIELD(camera.principal_px),
-          "[cx, cy] of the camera matrix, right and down from the picture's upper left corner "
-          "(OpenCV's are less by 0.5); the middle if left out"),
+          "[cx, cy] from the picture's upper left corner (OpenCV's are less by 0.5); the middle if "
+          "left out"),
       SceneRow::optional_vector("camera.size_px", {1, 65536, "pixels"}, SWELL_FIELD(camera.size_px),
-                                "[width, height] that focal_px and principal_px are given for"),
+                                "[width, height] of those"),
       SceneRow::optional_text(
           "camera.mount", SWELL_FIELD(camera.mount),
-          "name of the object that carries the camera, whose directions are then in the axes of "
-          "the object; excludes eye_m and velocity_mps"),
+          "name of the object that carries the camera, in whose axes its directions then are; "
+          "excludes eye_m and velocity_mps"),
       SceneRow::vector("camera.mount_offset_m", {-1000, 1000, "m"},
                        SWELL_FIELD(camera.mount_offset_m),
                        "from the object's middle at its waterline: right, ahead, up"),
@@ -58,7 +56,21 @@ Rows camera_rows() {
                        "how long the shutter stays open, from the picture's time on"),
       SceneRow::integer("camera.shutter_samples", Kind::kInteger, {1, 16},
                         SWELL_FIELD(camera.shutter_samples),
-                        "moments of that time whose light is added up, evenly spread"),
+                        "moments of that time whose light is added up"),
+      SceneRow::choice("camera.projection", ProjectionName{}, "how the picture shows directions"),
+      SceneRow::angle("camera.fisheye_fov_deg", {1, 360, "deg"},
+                      SWELL_FIELD(camera.fisheye_fov_rad),
+                      "cone that is shown; it touches the nearer edges unless focal_px is given"),
+      SceneRow::vector("camera.fisheye_k", {-10, 10}, SWELL_FIELD(camera.fisheye_k),
+                       "k1 to k4, as OpenCV's"),
+      SceneRow::or_zero(SceneRow::number("camera.full_well_e", {100, 1e7, "electrons"},
+                                         SWELL_FIELD(camera.noise.full_well_e),
+                                         "that a pixel holds; 0: no noise")),
+      SceneRow::number("camera.iso", {100, 1e6}, SWELL_FIELD(camera.noise.iso), "divides them"),
+      SceneRow::number("camera.read_noise_e", {0, 10000, "electrons"},
+                       SWELL_FIELD(camera.noise.read_noise_e), "beside the light's own"),
+      SceneRow::integer("camera.noise_seed", Kind::kInteger, {0, kMaxSeed},
+                        SWELL_FIELD(camera.noise.seed), "another number, other noise"),
   };
 }
 
@@ -92,16 +104,15 @@ Rows sea_rows() {
                        "seven layers of a periodic map that look like this water; sets the wind "
                        "if that is left out"),
       SceneRow::choice("sea.map_heights", MapHeightsName{},
-                       "of maps, when they are looked up; packed: in 16 bits, which makes queries "
-                       "faster and is off by 2e-5 of a layer's highest height at most"),
+                       "of maps; packed: in 16 bits, which makes queries faster and is off by 2e-5 "
+                       "of the highest at most"),
       SceneRow::list("sea.patch_lengths_m", {0.5, 50000, "m"}, 1, ocean::kMaxPatches,
                      SWELL_FIELD(sea.patch_lengths_m),
                      "periods of the patches that hold the wind waves, longest first"),
       SceneRow::integer("sea.resolution", Kind::kPowerOfTwo, {16, 512}, SWELL_FIELD(sea.resolution),
                         "samples along each side of a patch"),
-      SceneRow::plain<bool>(
-          "sea.tiling", Kind::kBoolean, SWELL_FIELD(sea.tiling),
-          "the longest patch covers the sea by tiles that differ; false: it repeats itself"),
+      SceneRow::plain<bool>("sea.tiling", Kind::kBoolean, SWELL_FIELD(sea.tiling),
+                            "the longest patch covers the sea by tiles that differ"),
       SceneRow::number("sea.choppiness", {0, 1}, SWELL_FIELD(sea.choppiness),
                        "how much crests are sharper than troughs: 0 for linear waves, 1 for waves "
                        "of second order"),
@@ -115,17 +126,17 @@ Rows sea_rows() {
           "sea.loop_s", {1, 100000, "s"}, SWELL_FIELD(sea.loop_s),
           "after this time the sea and all that moves with it repeat exactly; 0: never")),
       SceneRow::number("sea.whitecaps", {0, 10}, SWELL_FIELD(sea.whitecaps),
-                       "multiplies the part of the open sea that foam covers; 0: no foam there"),
+                       "multiplies the part of the open sea that foam covers"),
       SceneRow::vector("sea.centre_m", {-1e6, 1e6, "m"}, SWELL_FIELD(area.centre_m),
                        "middle of the rectangle that `size_m` limits waves to: east, north"),
       SceneRow::or_zero(SceneRow::vector(
           "sea.size_m", {1, 200000, "m"}, SWELL_FIELD(area.size_m),
           "its size, west to east and south to north; outside, waves are in the shading alone; "
-          "0: no limit, waves go on to the horizon")),
+          "0: no limit")),
       SceneRow::choice("sea.earth", EarthName{},
                        "round: what is far sinks by r^2 / 14646 km and behind the horizon"),
       SceneRow::number("wind.speed_mps", {0, 60, "m/s"}, SWELL_FIELD(sea.wind_speed_mps),
-                       "at 10 m above the sea; 0 makes no wind waves"),
+                       "at 10 m above the sea"),
       SceneRow::angle("wind.from_deg", {-360, 360, "deg"}, SWELL_FIELD(sea.wind_from_rad),
                       "where the wind comes from, clockwise from north"),
   };
@@ -151,12 +162,11 @@ Rows water_rows() {
       SceneRow::number("water.distortion", {0, 1, "picture heights"}, SWELL_FIELD(water.distortion),
                        "C0: how far a wave's slope moves mirrored and sunken things"),
       SceneRow::choice("water.distortion_factor", DistortionFactorName{},
-                       "what that is multiplied by, so that far things hold together: six times "
-                       "the sine of the angle at which the eye meets the water, 0.1 to 1; or the "
-                       "place in the picture, in picture heights below the horizon"),
+                       "what that is multiplied by: six times "
+                       "the sine of the angle at which the eye meets the water, 0.1 to 1; or "
+                       "picture heights below the horizon"),
       SceneRow::number("water.lookup_scale", {0.1, 1}, SWELL_FIELD(water.lookup_scale),
-                       "size of the mirror and underwater pictures against the window: 1 is full, "
-                       "0.5 half, 0.25 a quarter"),
+                       "size of the mirror and underwater pictures against the window"),
       SceneRow::number("water.bump_strength", {0, 10}, SWELL_FIELD(water.bump_strength),
                        "of the ripples"),
       SceneRow::number("water.uv_noise_amplitude_m", {0, 10, "m"},
@@ -199,26 +209,20 @@ Rows water_rows() {
           "detail.triangulation", TriangulationName{},
           "how the sea is cut into triangles: a bintree that follows the view, rings around "
           "the camera, or two flat triangles, with waves in the shading only"),
-      SceneRow::number(
-          "detail.background_error_px", {0, 8, "pixels"}, SWELL_FIELD(detail.background_error_px),
-          "far water may leave out waves that move it by less than this; 0 leaves out none"),
+      SceneRow::number("detail.background_error_px", {0, 8, "pixels"},
+                       SWELL_FIELD(detail.background_error_px),
+                       "far water may leave out waves that move it by less than this"),
       SceneRow::choice("detail.priority", Priority{}, "which triangles are split first"),
-      SceneRow::number(
-          "detail.objects", {1, 64}, SWELL_FIELD(detail.objects),
-          "the sea under floating objects is triangulated as finely as if it were this "
-          "many times nearer"),
+      SceneRow::number("detail.objects", {1, 64}, SWELL_FIELD(detail.objects),
+                       "the sea under floating objects counts as this many times nearer"),
       SceneRow::number(
           "detail.back_facing", {1, 16}, SWELL_FIELD(detail.back_facing),
-          "surfaces that face away from the camera are triangulated as coarsely as if they were "
-          "this many times further away"),
-      SceneRow::number(
-          "detail.normal_spread", {1, 16}, SWELL_FIELD(detail.normal_spread),
-          "smooth areas are triangulated as coarsely as if they were up to this many times "
-          "further away"),
-      SceneRow::number(
-          "detail.silhouette", {1, 16}, SWELL_FIELD(detail.silhouette),
-          "what cannot be part of an outline, a crest or a hill against what lies behind "
-          "it, is triangulated as coarsely as if it were this many times further away"),
+          "surfaces that face away from the camera count as this many times further away"),
+      SceneRow::number("detail.normal_spread", {1, 16}, SWELL_FIELD(detail.normal_spread),
+                       "smooth areas count as up to this many times further away"),
+      SceneRow::number("detail.silhouette", {1, 16}, SWELL_FIELD(detail.silhouette),
+                       "what is no part of an outline, a crest or a hill against what lies behind "
+                       "it, counts as this many times further away"),
       SceneRow::number("detail.visibility", {0, 4}, SWELL_FIELD(detail.visibility),
                        "how far haze, fog, rain and the night coarsen what they hide: 1 in "
                        "proportion to the contrast that is lost, 0 not at all"),

@@ -12,6 +12,14 @@ struct Priority {
   auto& operator()(auto& scene) const { return scene.detail.inverse_distance_priority; }
 };
 
+struct ProjectionName {
+  using enum ProjectionKind;
+  static constexpr auto words = enum_words<ProjectionKind>({{kPerspective, "perspective"},
+                                                            {kFisheye, "fisheye"},
+                                                            {kEquirectangular, "equirectangular"}});
+  auto& operator()(auto& scene) const { return scene.camera.projection; }
+};
+
 struct TriangulationName {
   using enum Triangulation;
   static constexpr auto words =

@@ -133,6 +133,18 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[camera]\neye_m = [0, 0, 9]\nmount = \"a\"\n[[object]]\nname = \"a\"\n",
               "test.toml:2: column 9: camera.eye_m, got it besides camera.mount in line 3, allowed "
               "one of camera.mount, camera.eye_m"},
+        Fault{"[camera]\nprojection = \"fish\"\n",
+              "test.toml:2: column 14: camera.projection, got \"fish\", allowed \"perspective\", "
+              "\"fisheye\" or \"equirectangular\""},
+        Fault{"[camera]\nprojection = \"fisheye\"\nfisheye_k = [-1, 0, 0, 0]\n",
+              "test.toml:3: column 13: camera.fisheye_k, got [-1, 0, 0, 0], allowed a lens whose "
+              "radius grows with the angle up to half of fisheye_fov_deg"},
+        Fault{"[camera]\nprojection = \"equirectangular\"\nfocal_px = [9, 9]\nsize_px = [9, 9]\n",
+              "test.toml:3: column 12: camera.focal_px, got it for camera.projection "
+              "\"equirectangular\", allowed it for the others"},
+        Fault{"[camera]\nfull_well_e = 50\n",
+              "test.toml:2: column 15: camera.full_well_e, got 50, allowed 0 or 100 to 10000000 "
+              "electrons"},
         Fault{"[camera]\nmount_offset_m = [0, 0, 1]\n",
               "test.toml:2: column 18: camera.mount_offset_m, got it without camera.mount, allowed "
               "both or neither"},
@@ -264,8 +276,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[camera]\nfov_deg = 50\n",
               "test.toml:2: column 1: unknown key, got 'camera.fov_deg' (did you mean "
               "'fov_y_deg'?), allowed in [camera] "
-              "fov_y_deg, roll_deg, pitch_deg, turn_deg_s, eye_m, heading_deg, mount, focal_px, "
-              "[[camera.path]], near_m, exposure_s, size_px, velocity_mps, mount_offset_m, "
+              "fov_y_deg, roll_deg, pitch_deg, fisheye_fov_deg, turn_deg_s, eye_m, heading_deg, "
+              "mount, iso, focal_px, noise_seed, [[camera.path]], fisheye_k, full_well_e, near_m, "
+              "exposure_s, size_px, velocity_mps, mount_offset_m, projection, read_noise_e, "
               "quaternion, shutter_samples, principal_px"},
         Fault{"[camrea]\nnear_m = 1\n",
               "test.toml:1: column 2: unknown key, got 'camrea' (did you mean 'camera'?), allowed "
@@ -297,8 +310,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{
             "[camera]\nfov = 3\n",
             "test.toml:2: column 1: unknown key, got 'camera.fov', allowed in [camera] fov_y_deg, "
-            "mount, focal_px, [[camera.path]], eye_m, roll_deg, near_m, size_px, quaternion, "
-            "exposure_s, pitch_deg, velocity_mps, turn_deg_s, heading_deg, principal_px, "
+            "mount, iso, focal_px, [[camera.path]], eye_m, roll_deg, near_m, size_px, fisheye_k, "
+            "quaternion, exposure_s, projection, noise_seed, pitch_deg, fisheye_fov_deg, "
+            "full_well_e, velocity_mps, turn_deg_s, read_noise_e, heading_deg, principal_px, "
             "mount_offset_m, shutter_samples"},
         Fault{"[sea]\nstate = 3\n",
               "test.toml:2: column 1: unknown key, got 'sea.state', allowed in [sea] tp_s, seed, "
@@ -308,9 +322,10 @@ INSTANTIATE_TEST_SUITE_P(
               "map_heights, amplitude_scale, patch_lengths_m"},
         Fault{"[camera]\n\"eye.m\" = 3\n",
               "test.toml:2: column 1: unknown key, got 'camera.eye.m' (did you mean 'eye_m'?), "
-              "allowed in [camera] eye_m, near_m, [[camera.path]], size_px, mount, exposure_s, "
-              "fov_y_deg, roll_deg, velocity_mps, turn_deg_s, quaternion, focal_px, heading_deg, "
-              "pitch_deg, mount_offset_m, shutter_samples, principal_px"},
+              "allowed in [camera] eye_m, near_m, fisheye_k, iso, [[camera.path]], size_px, mount, "
+              "exposure_s, noise_seed, fov_y_deg, roll_deg, velocity_mps, turn_deg_s, quaternion, "
+              "focal_px, projection, read_noise_e, heading_deg, pitch_deg, fisheye_fov_deg, "
+              "full_well_e, mount_offset_m, shutter_samples, principal_px"},
         Fault{"a.b = 3\n",
               "test.toml:1: column 1: unknown key, got 'a', allowed [air], [sea], name, [[lake]], "
               "[sky], [water], [coast], [camera], [wind], [detail], [terrain], [[river]], "

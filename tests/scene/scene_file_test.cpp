@@ -35,6 +35,13 @@ fov_y_deg = 60
 near_m = 0.5
 velocity_mps = [4, 5, 6]
 turn_deg_s = 3
+projection = "fisheye"
+fisheye_fov_deg = 190
+fisheye_k = [0.01, -0.02, 0.003, 0]
+full_well_e = 12000
+iso = 400
+read_noise_e = 2.5
+noise_seed = 77
 [sky]
 sun_azimuth_deg = 90.0
 sun_elevation_deg = 60.0
@@ -134,6 +141,11 @@ TEST(SceneFile, EveryKeyReachesItsField) {
   EXPECT_EQ(scene.camera.near_m, 0.5);
   EXPECT_EQ(scene.camera.velocity_mps, glm::dvec3(4, 5, 6));
   EXPECT_EQ(scene.camera.turn_rad_s, 3 * kDegree);
+  EXPECT_EQ(scene.camera.projection, ProjectionKind::kFisheye);
+  EXPECT_EQ(scene.camera.fisheye_fov_rad, 190 * kDegree);
+  EXPECT_EQ(scene.camera.fisheye_k, glm::dvec4(0.01, -0.02, 0.003, 0.0));
+  EXPECT_EQ(scene.camera.noise,
+            (SensorNoise{.full_well_e = 12000.0, .iso = 400.0, .read_noise_e = 2.5, .seed = 77}));
   EXPECT_EQ(scene.sky.sun_azimuth_rad, 90 * kDegree);
   EXPECT_EQ(scene.sky.sun_elevation_rad, 60 * kDegree);
   EXPECT_EQ(scene.sky.sun_radiance, glm::vec3(3.0f, 2.5f, 2.0f));

@@ -121,6 +121,13 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(camera.mount_offset_m);
   SWELL_COMPARE(camera.exposure_s);
   SWELL_COMPARE(camera.shutter_samples);
+  SWELL_COMPARE(camera.projection);
+  SWELL_COMPARE(camera.fisheye_fov_rad);
+  SWELL_COMPARE(camera.fisheye_k);
+  SWELL_COMPARE(camera.noise.full_well_e);
+  SWELL_COMPARE(camera.noise.iso);
+  SWELL_COMPARE(camera.noise.read_noise_e);
+  SWELL_COMPARE(camera.noise.seed);
   SWELL_COMPARE(sky.sun_azimuth_rad);
   SWELL_COMPARE(sky.sun_elevation_rad);
   SWELL_COMPARE(sky.sun_direction);

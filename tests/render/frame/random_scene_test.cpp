@@ -124,6 +124,7 @@ std::optional<std::string> tame_value(std::string_view key, Dice& dice) {
   if (key == "camera.principal_px")
     return fmt::format("[{}, {}]", 200 * dice.uniform() - 50, 200 * dice.uniform() - 50);
   if (key == "camera.size_px") return "[100, 90]";
+  if (key == "camera.projection") return "\"perspective\"";  // others fit few lenses
   return std::nullopt;
 }
 
