@@ -365,6 +365,7 @@ FrameStatistics draw_moment(const World& world, const FrameRequest& request, dou
   in.stage(Stage::kShade, [&](const StageRun& run) {
     store_fog(in, run);
     shade(in, drawn_target, run);
+    target.exposure = ws.shading.exposure;
     if (small) enlarge_picture(ws.small, ws.enlarge, view, target, workers);
   });
   workspace.trace = ws.profile.trace();

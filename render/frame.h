@@ -59,9 +59,11 @@ class Workspace {
   std::unique_ptr<FrameState> state_;
 };
 
-// Draws the world at time t_s. The picture depends on (world, view, t_s, options) alone: any
+// Draws the world at time t_s; a wide view (View::projection) by several perspective ones, whose
+// statistics add up. The picture depends on (world, view, t_s, options) alone: any
 // worker count, SIMD target, tile size and history give the same bits. Aborts with a message where
-// the view has no size in [1, 8192] x [1, 8192], is not finite or its axes are no unit vectors,
+// the view has no size in [1, 8192] x [1, 8192], is not finite, its axes are no unit vectors or its
+// fisheye is not one to one,
 // where t_s is not finite, and where an option lies outside its range.
 FrameStatistics render_frame(const World& world, const View& view, double t_s,
                              const FrameOptions& options, Workspace& workspace, Target& target,

@@ -21,6 +21,7 @@
 #include "render/view/meshes.h"
 #include "render/view/render_view.h"
 #include "render/view/visibility.h"
+#include "render/wide_frame.h"
 
 namespace swell::render {
 
@@ -45,6 +46,7 @@ struct FrameState {
   Target small;   // the picture before it is enlarged
   Target moment;  // one of those whose light a picture adds up
   EnlargeTables enlarge;
+  std::unique_ptr<Workspaces> of_faces;  // of wide views, once there is one
 };
 
 // What Workspaces hold: the sea at one time, and a workspace and its worker a thread.
@@ -57,6 +59,7 @@ struct MomentState {
   SeaMaps sea;
   std::vector<Workspace> workspaces;
   std::deque<Workers> alone;
+  std::deque<WideFrame> wide;  // one a request of a wide view
 };
 
 }  // namespace swell::render

@@ -11,7 +11,7 @@ FrameOptions with_scene_defaults(const FrameOptions& options, const scene::Scene
     result.background_error_px = scene.detail.background_error_px;
   if (result.edge_samples < 0) result.edge_samples = scene.picture.edge_samples;
   if (!result.shading) result.shading = scene.picture.shading;
-  if (result.keep_linear) result.shading = scene::ShadingRate::kFull;
+  if (result.keep_linear && !result.is_face) result.shading = scene::ShadingRate::kFull;
   return result;
 }
 

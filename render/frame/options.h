@@ -23,7 +23,7 @@ struct FrameOptions {
   // leave out none, below 0: the scene's.
   double background_error_px = -1.0;
   // The picture is drawn at this share of the view's size each way, in (0, 1], and enlarged. Not
-  // with keep_linear, which is for pictures that are kept.
+  // with keep_linear, which is for pictures that are kept, nor of wide views.
   double picture_scale = 1.0;
   // Storage for so many triangles of each surface at once: a later frame that asks for more than
   // any before, but no more than this, need not build its triangulation anew; at most
@@ -34,8 +34,9 @@ struct FrameOptions {
   int lod_operations = 0;    // splits and merges
   double lod_ms = 0.0;       // time
   int lod_groups = 1;        // of priorities, one of which is worked out anew
-  bool wireframe = false;    // triangle edges, tinted by level of detail
+  bool wireframe = false;    // triangle edges, tinted by level of detail; not of wide views
   bool keep_linear = false;  // fill Target::linear
+  bool is_face = false;      // of a wide picture: keep_linear leaves the shading as it is
   // Samples a pixel where surfaces meet, 0, 4 or 8; below 0: the scene's. Labels do not change.
   int edge_samples = -1;
   // (A, B, C, D) of a plane in the world: of all surfaces, in the window, the mirror and under
@@ -44,6 +45,8 @@ struct FrameOptions {
   std::optional<glm::dvec4> clip_plane = {};
   // Which pixels are shaded; none: as the scene says. With keep_linear all are.
   std::optional<scene::ShadingRate> shading = {};
+  // The noise of the picture's sensor; none: as the scene says. Every pixel is shaded for it.
+  std::optional<scene::SensorNoise> noise = {};
   PartSet without = {};  // leave these parts of the picture out
   LabelSet labels = {};  // fill these of Target::labels; not with picture_scale below 1
   // For the label of motion: the camera of the next frame, of the same size, and how much later it

@@ -13,7 +13,7 @@ constexpr std::array<LabelInfo, kLabelCount> kTable = {{
      {"Z"},
      false,
      "m",
-     "Distance from the eye along the view axis.",
+     "Distance from the eye along the view axis; in wide pictures along the ray.",
      "+inf",
      "",
      &Labels::depth_m},

@@ -1,5 +1,6 @@
-// The outputs beside colour, exact per pixel: each is that of the surface at the pixel's centre,
-// never mixed with a neighbour's. This one table names them for code, files and documents.
+// The outputs beside colour, exact per pixel: each is that of the surface at the pixel's centre (of
+// wide views, at that of the nearest pixel drawn), never mixed with a neighbour's. This one table
+// names them for code, files and documents.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@
 namespace swell::render {
 
 enum class Label : std::uint8_t {
-  kDepth,            // along the view axis
+  kDepth,            // along the view axis; of wide views the distance
   kDistance,         // from the eye
   kPosition,         // in the world
   kNormal,           // as shaded
