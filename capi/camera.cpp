@@ -1,10 +1,13 @@
 #include "capi/camera.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
 #include "capi/call.h"
 #include "math/elementary.h"
+#include "math/projection.h"
 #include "render/world_view.h"
 #include "scene/camera.h"
 
@@ -30,6 +33,39 @@ void set(double (&wxyz)[4], const glm::dquat& q) {
   wxyz[0] = q.w, wxyz[1] = q.x, wxyz[2] = q.y, wxyz[3] = q.z;
 }
 
+Intrinsics intrinsics_of(const swell_camera& c) {
+  check_each("camera.focal_px", c.focal_px, 0.1, 1e7);
+  check_each("camera.principal_px", c.principal_px, -1e6, 1e6);
+  return {c.focal_px[0], c.focal_px[1], c.principal_px[0], c.principal_px[1]};
+}
+
+Projection projection_of(const swell_camera& c) {
+  switch (c.projection) {
+    case SWELL_PERSPECTIVE:
+      return {};
+    case SWELL_FISHEYE: {
+      check_each("camera.fisheye_k", c.fisheye_k, -10.0, 10.0);
+      const double fov_deg = c.fisheye_fov_deg == 0.0 ? 180.0 : c.fisheye_fov_deg;
+      check_range("camera.fisheye_fov_deg", fov_deg, 1.0, 360.0);
+      const double half_rad = radians(0.5 * fov_deg);
+      const std::array<double, 4> bend = std::to_array(c.fisheye_k);
+      if (!is_one_to_one(bend, half_rad))
+        refuse(
+            "camera.fisheye_k, got [{}, {}, {}, {}], allowed a lens whose radius grows with the "
+            "angle up to {} degrees",
+            bend[0], bend[1], bend[2], bend[3], 0.5 * fov_deg);
+      return {.kind = ProjectionKind::kFisheye,
+              .k = intrinsics_of(c),
+              .bend = bend,
+              .half_fov_rad = half_rad};
+    }
+    case SWELL_EQUIRECTANGULAR:
+      return {.kind = ProjectionKind::kEquirectangular};
+    default:
+      refuse("camera.projection, got {}, allowed one of swell_projection", c.projection);
+  }
+}
+
 }  // namespace
 
 glm::dquat unit_quaternion(const double (&wxyz)[4], const char* name) {
@@ -52,13 +88,15 @@ void check_time(double t_s) { check_range("t_s", t_s, -1e12, 1e12); }
 View view_of(const swell_camera* camera, const char* name, PictureSize size) {
   const swell_camera c = taken(camera, name);
   check_each("camera.eye_m", c.eye_m, -kFarthestEye_m, kFarthestEye_m);
-  check_each("camera.focal_px", c.focal_px, 0.1, 1e7);
-  check_each("camera.principal_px", c.principal_px, -1e6, 1e6);
   const double near_m = c.near_m == 0.0 ? kNear_m : c.near_m;
   check_range("camera.near_m", near_m, 0.001, 100.0);
-  const Intrinsics k = {c.focal_px[0], c.focal_px[1], c.principal_px[0], c.principal_px[1]};
-  return make_view(vector_of(c.eye_m), unit_quaternion(c.quaternion_wxyz, "camera.quaternion_wxyz"),
-                   k, static_cast<float>(near_m), size.width_px, size.height_px);
+  const Projection projection = projection_of(c);
+  const Intrinsics k = projection.is_wide() ? Intrinsics{1.0, 1.0, 0.0, 0.0} : intrinsics_of(c);
+  View view =
+      make_view(vector_of(c.eye_m), unit_quaternion(c.quaternion_wxyz, "camera.quaternion_wxyz"), k,
+                static_cast<float>(near_m), size.width_px, size.height_px);
+  view.projection = projection;
+  return view;
 }
 
 swell_camera camera_of(const View& view) {
@@ -66,9 +104,16 @@ swell_camera camera_of(const View& view) {
   swell_camera camera{};
   set(camera.eye_m, pose.eye_world);
   set(camera.quaternion_wxyz, pose.world_from_optical);
-  set(camera.focal_px, glm::dvec2(pose.k.fx, pose.k.fy));
-  set(camera.principal_px, glm::dvec2(pose.k.cx, pose.k.cy));
+  const Projection& projection = view.projection;
+  const Intrinsics& k = projection.is_wide() ? projection.k : pose.k;
+  set(camera.focal_px, glm::dvec2(k.fx, k.fy));
+  set(camera.principal_px, glm::dvec2(k.cx, k.cy));
   camera.near_m = static_cast<double>(view.near_m);
+  camera.projection = static_cast<int32_t>(projection.kind);
+  if (projection.kind == ProjectionKind::kFisheye) {
+    std::ranges::copy(projection.bend, camera.fisheye_k);
+    camera.fisheye_fov_deg = 2.0 * projection.half_fov_rad / kRadPerDeg;
+  }
   return camera;
 }
 

@@ -344,6 +344,8 @@ swell_status swell_pick_at(swell_session* session, double x_px, double y_px, swe
   return guarded([&] {
     const Held held(session, "session");
     if (!held->drawn_view) refuse("session, got one that has drawn no frame, allowed one that has");
+    if (held->drawn_view->projection.is_wide())
+      refuse("session, got one whose last frame is wide, allowed a perspective one");
     check_range("x_px", x_px, 0.0, held->drawn_view->width_px);
     check_range("y_px", y_px, 0.0, held->drawn_view->height_px);
     const auto met = render::pick(held->named->world, *held->drawn_view, held->workspace,

@@ -126,14 +126,26 @@ SWELL_API void swell_session_destroy(swell_session* session);
 
 /* A pinhole camera. Its frame is the optical one: x to the right of the picture, y down, z ahead.
  */
+typedef enum swell_projection {
+  SWELL_PERSPECTIVE = 0,
+  SWELL_FISHEYE = 1, /* Kannala and Brandt's lens, as OpenCV has it */
+  SWELL_EQUIRECTANGULAR =
+      2 /* longitude across, from straight back on to the right; latitude down */
+} swell_projection;
+
 typedef struct swell_camera {
   size_t size;
   double eye_m[3];           /* each within 1e6 */
   double quaternion_wxyz[4]; /* turns the optical frame into the world; of any length over 0 */
-  double focal_px[2];        /* fx, fy in [0.1, 1e7] */
+  double focal_px[2];        /* fx, fy in [0.1, 1e7]; of equirectangular cameras all of K is 0 */
   double principal_px[2]; /* cx, cy within 1e6, from the picture's upper left corner: 0.5 more than
                              OpenCV's */
   double near_m;          /* nearer things are cut off, [0.001, 100]; 0: 0.25 */
+  int32_t projection;  /* swell_projection. In wide pictures labels are those of the nearest pixel
+                          that was drawn for them, and the depth is the distance */
+  double fisheye_k[4]; /* k1 to k4 of a fisheye, within 10: the radius theta (1 + k1 theta^2 + ...
+                          k4 theta^8) has to grow with the angle up to the rim */
+  double fisheye_fov_deg; /* full angle of the cone that a fisheye shows, up to 360; 0: 180 */
 } swell_camera;
 
 /* A camera that looks along a heading (clockwise from north) and a pitch (up), turned about that

@@ -67,13 +67,16 @@ class ListOf : public std::span<const Value> {
   const Range& > ListOf(const Range& values) : std::span<const Value>(values) {}
 };
 
-// A pinhole camera (swell_camera). Its frame is the optical one: x to the right of the picture, y
-// down, z ahead.
+// A camera (swell_camera), pinhole unless it has another projection. Its frame is the optical one:
+// x to the right of the picture, y down, z ahead.
 struct Camera {
   Point3 eye_m = {};
   std::array<double, 4> quaternion_wxyz = {1.0, 0.0, 0.0, 0.0};
   Point2 focal_px = {1.0, 1.0}, principal_px = {};
   double near_m = 0.25;
+  swell_projection projection = SWELL_PERSPECTIVE;
+  std::array<double, 4> fisheye_k = {};
+  double fisheye_fov_deg = 180.0;
 
   // Where a camera of the scene's kind looks (swell_camera_look); degrees.
   struct Look {
@@ -280,12 +283,21 @@ inline swell_camera c_camera(const Camera& camera) {
   set(c.focal_px, camera.focal_px);
   set(c.principal_px, camera.principal_px);
   c.near_m = camera.near_m;
+  c.projection = camera.projection;
+  set(c.fisheye_k, camera.fisheye_k);
+  c.fisheye_fov_deg = camera.fisheye_fov_deg;
   return c;
 }
 
 inline Camera camera_of(const swell_camera& c) {
-  return {array_of(c.eye_m), array_of(c.quaternion_wxyz), array_of(c.focal_px),
-          array_of(c.principal_px), c.near_m};
+  return {array_of(c.eye_m),
+          array_of(c.quaternion_wxyz),
+          array_of(c.focal_px),
+          array_of(c.principal_px),
+          c.near_m,
+          static_cast<swell_projection>(c.projection),
+          array_of(c.fisheye_k),
+          c.fisheye_fov_deg == 0.0 ? 180.0 : c.fisheye_fov_deg};
 }
 
 inline std::vector<swell_pose> c_poses(const std::vector<Pose>& poses) {

@@ -13,19 +13,23 @@
 
 namespace swell_python {
 
-// Eye, quaternion, focal lengths, principal point, near plane.
+// Eye, quaternion, focal lengths, principal point, near plane, projection, k1 to k4 of a fisheye
+// and its field of view.
 using CameraTuple = std::tuple<std::array<double, 3>, std::array<double, 4>, std::array<double, 2>,
-                               std::array<double, 2>, double>;
+                               std::array<double, 2>, double, int, std::array<double, 4>, double>;
 
 inline swell_camera camera_of(const CameraTuple& tuple) {
   swell_camera camera{};
   camera.size = sizeof(camera);
-  const auto& [eye, quaternion, focal, principal, near] = tuple;
+  const auto& [eye, quaternion, focal, principal, near, projection, fisheye_k, fov_deg] = tuple;
   std::copy(eye.begin(), eye.end(), camera.eye_m);
   std::copy(quaternion.begin(), quaternion.end(), camera.quaternion_wxyz);
   std::copy(focal.begin(), focal.end(), camera.focal_px);
   std::copy(principal.begin(), principal.end(), camera.principal_px);
   camera.near_m = near;
+  camera.projection = projection;
+  std::copy(fisheye_k.begin(), fisheye_k.end(), camera.fisheye_k);
+  camera.fisheye_fov_deg = fov_deg;
   return camera;
 }
 
@@ -34,7 +38,10 @@ inline CameraTuple tuple_of(const swell_camera& c) {
           {c.quaternion_wxyz[0], c.quaternion_wxyz[1], c.quaternion_wxyz[2], c.quaternion_wxyz[3]},
           {c.focal_px[0], c.focal_px[1]},
           {c.principal_px[0], c.principal_px[1]},
-          c.near_m};
+          c.near_m,
+          c.projection,
+          {c.fisheye_k[0], c.fisheye_k[1], c.fisheye_k[2], c.fisheye_k[3]},
+          c.fisheye_fov_deg};
 }
 
 inline CameraTuple look(std::array<double, 3> eye, double heading_deg, double pitch_deg,

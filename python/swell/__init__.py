@@ -178,7 +178,7 @@ class Picture:
     @property
     def camera(self) -> Camera:
         """The camera that it was drawn with."""
-        return Camera(*self._drawn.camera())
+        return Camera._of(self._drawn.camera())
 
 
 class World:
@@ -236,7 +236,7 @@ class World:
 
         A camera that is mounted on an object goes with it where the poses put that.
         """
-        return Camera(*self._world.camera(number(t, "t"), *size_of(size), self._poses(poses), _tuples(disturbances)))
+        return Camera._of(self._world.camera(number(t, "t"), *size_of(size), self._poses(poses), _tuples(disturbances)))
 
     def render(self, t: float = 0.0, size: Size = (1280, 720), *, camera: Optional[Camera] = None,
                labels: Union[str, Iterable[str]] = (), linear: bool = False, poses: Poses = {},

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 _Vector = Sequence[float]
-_Camera = Tuple[_Vector, _Vector, _Vector, _Vector, float]
+_Camera = Tuple[_Vector, _Vector, _Vector, _Vector, float, int, _Vector, float]
 _Pose = Tuple[int, _Vector, _Vector]
 _Disturbance = Tuple[int, _Vector, float, float, float, float, Sequence[_Vector], float, bool, _Vector, float]
 _Pick = Tuple[int, _Vector, float, int, int, float]

@@ -20,6 +20,9 @@ class Lookup:
     """Where the pixels of a distorted picture lie in a pinhole picture that is wide enough."""
 
     def __init__(self, camera: Camera, size: Size):
+        if camera.projection != "perspective":
+            raise ValueError(f"camera.distortion, got one of a camera with projection {camera.projection!r}, allowed "
+                             "for 'perspective'")
         fx, fy = camera.focal
         column, row = np.meshgrid(np.arange(size[0]) + 0.5, np.arange(size[1]) + 0.5)
         seen_x, seen_y = (column - camera.principal[0]) / fx, (row - camera.principal[1]) / fy

@@ -232,6 +232,10 @@ TEST(Door, FaultsAreExceptionsWithTheirStatus) {
     EXPECT_EQ(status_of([&] { world.poses(bad); }), SWELL_BAD_ARGUMENT);
     EXPECT_EQ(status_of([&] { world.camera(bad); }), SWELL_BAD_ARGUMENT);
   }
+  swell::Camera wide = camera_at_buoy();
+  wide.projection = SWELL_FISHEYE;
+  wide.fisheye_k[0] = -1.0;  // folds
+  EXPECT_EQ(status_of([&] { world.render(0.0, kSize, {.camera = wide}); }), SWELL_BAD_ARGUMENT);
   EXPECT_EQ(status_of([&] { world.render(0.0, {0, 9}); }), SWELL_BAD_ARGUMENT);
   EXPECT_EQ(status_of([&] { world.render(0.0, {1 << 30, 9}); }), SWELL_BAD_ARGUMENT);
   EXPECT_EQ(status_of([&] { world.pick({1.0, 1.0}); }), SWELL_BAD_ARGUMENT);
@@ -240,6 +244,27 @@ TEST(Door, FaultsAreExceptionsWithTheirStatus) {
   const swell::World moved = std::move(world);
   EXPECT_EQ(status_of([&] { world.render(0.0, kSize); }), SWELL_BAD_ARGUMENT);  // NOLINT: meant
   EXPECT_TRUE(world.text().empty());
+}
+
+TEST(Door, WideCamerasComeBackAsTheyWent) {
+  swell::World world = small_world();
+  swell::Camera fish = camera_at_buoy();
+  fish.projection = SWELL_FISHEYE;
+  fish.focal_px = {30.0, 31.0};
+  fish.principal_px = {40.0, 20.0};
+  fish.fisheye_k = {0.01, -0.002, 0.0, 0.0};
+  fish.fisheye_fov_deg = 200.0;
+  const swell::Picture drawn = world.render(1.0, kSize, {.labels = {"all"}, .camera = fish});
+  const swell::Camera back = drawn.camera();
+  EXPECT_EQ(back.projection, SWELL_FISHEYE);
+  EXPECT_EQ(back.focal_px, fish.focal_px);
+  EXPECT_EQ(back.principal_px, fish.principal_px);
+  EXPECT_EQ(back.fisheye_k, fish.fisheye_k);
+  EXPECT_NEAR(back.fisheye_fov_deg, 200.0, 1e-9);
+  swell::Camera all = camera_at_buoy();
+  all.projection = SWELL_EQUIRECTANGULAR;
+  EXPECT_NE(world.render(1.0, kSize, {.camera = all}).hash(), drawn.hash());
+  EXPECT_EQ(status_of([&] { world.pick({1.0, 1.0}); }), SWELL_BAD_ARGUMENT);  // of a wide picture
 }
 
 TEST(Door, CopiesShareTheWorldAndDrawSideBySide) {

@@ -147,7 +147,7 @@ def test_a_lens_bends_the_picture_as_opencv_says(still):
     with pytest.raises(ValueError):
         bent["motion"]
     with pytest.raises(ValueError):
-        still.render(1.0, size, camera=swell.Camera(*lens._tuple(), distortion=(-2.0, 0, 0, 0, 0)))
+        still.render(1.0, size, camera=replace(lens, distortion=(-2.0, 0, 0, 0, 0)))
 
 
 def test_rotations_come_back():
