@@ -11,10 +11,31 @@
 #include "apps/shared/json.h"
 #include "apps/shared/program.h"
 #include "apps/shared/version.h"
+#include "math/elementary.h"
 #include "render/labels/classes.h"
+#include "scene/file/scene_choices.h"
 
 namespace swell::apps {
 namespace {
+
+// What the picture's pixels see, in the optical frame.
+Json lens_json(const View& view, const Intrinsics& pinhole) {
+  const Projection& projection = view.projection;
+  const Intrinsics& k = projection.is_wide() ? projection.k : pinhole;
+  Json json;
+  if (projection.is_wide()) json["projection"] = scene::ProjectionName::words[projection.kind];
+  if (projection.kind == ProjectionKind::kFisheye) {
+    json["fisheye_k"] = projection.bend;
+    json["fisheye_fov_deg"] = 2.0 * projection.half_fov_rad / kRadPerDeg;
+  }
+  if (projection.kind != ProjectionKind::kEquirectangular)
+    json["intrinsics"] = {{"fx", k.fx},
+                          {"fy", k.fy},
+                          {"cx", k.cx},
+                          {"cy", k.cy},
+                          {"first_pixel_centre_px", {0.5, 0.5}}};
+  return json;
+}
 
 Json camera_json(const View& view) {
   const OpticalPose pose = camera_pose(view);
@@ -25,17 +46,12 @@ Json camera_json(const View& view) {
   for (glm::length_t row = 0; row < 3; ++row)
     matrix.push_back({axes[0][row], axes[1][row], axes[2][row], eye[row]});
   matrix.push_back({0.0, 0.0, 0.0, 1.0});
-  return {{"intrinsics",
-           {{"fx", pose.k.fx},
-            {"fy", pose.k.fy},
-            {"cx", pose.k.cx},
-            {"cy", pose.k.cy},
-            {"first_pixel_centre_px", {0.5, 0.5}}}},
-          {"near_m", view.near_m},
-          {"pose",
-           {{"eye_m", {eye.x, eye.y, eye.z}},
-            {"quaternion_wxyz", {q.w, q.x, q.y, q.z}},
-            {"world_from_optical", matrix}}}};
+  Json json = lens_json(view, pose.k);
+  json["near_m"] = view.near_m;
+  json["pose"] = {{"eye_m", {eye.x, eye.y, eye.z}},
+                  {"quaternion_wxyz", {q.w, q.x, q.y, q.z}},
+                  {"world_from_optical", matrix}};
+  return json;
 }
 
 Json channels_json(render::LabelSet labels) {

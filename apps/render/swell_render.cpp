@@ -90,6 +90,7 @@ void run(const RenderOptions& options) {
   scene::Scene scene = draws ? load_scene(choice) : scene::load_scene(choice.path, choice.settings);
   if (options.dump_scene) fmt::print("{}", scene::dump_scene(scene));
   if (!draws) return;
+  if (options.setup.frame.wireframe) check_perspective(scene, "--wireframe");
   const render::WorldMaking making = {.threads = options.setup.threads,
                                       .cache_folder = options.setup.cache_folder};
   draw_frames(options, render::World(std::move(scene), making), log);

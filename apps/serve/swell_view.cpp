@@ -103,8 +103,11 @@ void warn_of_eye(const render::World& world) {
 }
 
 scene::Scene scene_of(const apps::SceneChoice& choice) {
-  if (!choice.path.empty()) return apps::load_scene(choice);
-  return scene::parse_scene(kDefaultScene, kDefaultSceneFile, choice.settings);
+  scene::Scene scene = choice.path.empty()
+                           ? scene::parse_scene(kDefaultScene, kDefaultSceneFile, choice.settings)
+                           : apps::load_scene(choice);
+  apps::check_perspective(scene, "the viewer");
+  return scene;
 }
 
 void run(const Options& options) {

@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <cstdio>
+#include <stdexcept>
 
 #include "render/measure/eye_place.h"
 #include "scene/coast.h"
+#include "scene/file/scene_choices.h"
 #include "scene/settings.h"
 
 namespace swell::apps {
@@ -15,6 +17,13 @@ scene::Scene load_scene(const SceneChoice& choice) {
   if (const std::string work = scene::slow_coast_text(scene); !work.empty())
     fmt::print(stderr, "note: {}; that takes a while\n", work);
   return scene;
+}
+
+void check_perspective(const scene::Scene& scene, std::string_view what) {
+  if (scene.camera.projection != ProjectionKind::kPerspective)
+    throw std::runtime_error(
+        fmt::format("camera.projection, got \"{}\", allowed for {} \"perspective\"",
+                    scene::ProjectionName::words[scene.camera.projection], what));
 }
 
 void EyeWarning::look(int frame, const render::World& world, const View& view,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/frame.h"
@@ -18,6 +19,9 @@ struct SceneChoice {
 // Reads a scene; prints one line 'note: ...' if making it ready will take a second or more. Throws
 // as scene::load_scene does.
 scene::Scene load_scene(const SceneChoice& choice);
+
+// Refuses a scene with a wide camera for what shows perspective pictures alone.
+void check_perspective(const scene::Scene& scene, std::string_view what);
 
 // Prints one line 'warning: ...' on standard error for the first frame whose eye is below the
 // ground, which is drawn from above alone.

@@ -9,6 +9,7 @@
 #include "apps/sim/lens.h"
 #include "apps/sim/sim_world.h"
 #include "math/elementary.h"
+#include "math/projection.h"
 #include "render/frame.h"
 
 namespace swell::apps {
@@ -20,11 +21,11 @@ class CameraSensor {
  public:
   CameraSensor(const scene::Sensor& sensor, SimWorld& world, Simulation& simulation)
       : sensor_(sensor), world_(world) {
-    const double focal_px = 0.5 * sensor.height_px / tan(0.5 * sensor.fov_y_rad);
-    k_ = {focal_px, focal_px, 0.5 * sensor.width_px, 0.5 * sensor.height_px};
     width_px_ = sensor.width_px, height_px_ = sensor.height_px;
     lens_ = lens_of_fov(sensor.fov_y_rad, width_px_, height_px_);
+    find_projection();
     find_lookup();
+    options_.noise = sensor.noise;
     const std::string name = "/" + sensor.name;
     picture_ = simulation.topic(name + "/image_raw", msg::Image::kType);
     info_ = simulation.topic(name + "/camera_info", msg::CameraInfo::kType);
@@ -47,16 +48,42 @@ class CameraSensor {
     std::size_t topic;
   };
 
+  [[noreturn]] void refuse(const char* key, const char* text) const {
+    scene::refuse_key(world_.rig(), sensor_key(world_.rig(), sensor_) + "." + key, text);
+  }
+
+  // The projection, and K where there is one.
+  void find_projection() {
+    projection_.kind = sensor_.projection;
+    if (sensor_.projection == ProjectionKind::kPerspective) {
+      const double focal_px = 0.5 * sensor_.height_px / tan(0.5 * sensor_.fov_y_rad);
+      k_ = {focal_px, focal_px, 0.5 * sensor_.width_px, 0.5 * sensor_.height_px};
+    }
+    if (sensor_.projection != ProjectionKind::kFisheye) return;
+    const glm::dvec4& k = sensor_.fisheye_k;
+    projection_ =
+        fisheye_of_fov(sensor_.fisheye_fov_rad, {k[0], k[1], k[2], k[3]}, width_px_, height_px_);
+    if (!is_one_to_one(projection_.bend, projection_.half_fov_rad))
+      refuse("fisheye_k",
+             "got a lens that folds the picture, allowed one whose radius grows with the angle up "
+             "to half of fisheye_fov_deg");
+    k_ = projection_.k;
+  }
+
   // The wider pinhole picture, where there is a lens.
   void find_lookup() {
     Distortion lens{};
     std::ranges::copy(sensor_.distortion, lens.begin());
     if (lens == Distortion{}) return;
+    if (projection_.is_wide())
+      refuse("distortion", "got it for a wide camera, allowed for projection \"perspective\"");
+    if (sensor_.noise.full_well_e > 0.0)
+      refuse("full_well_e", "got noise beside distortion, which would blend it, allowed 0");
     lookup_ = LensLookup::find(k_, width_px_, height_px_, lens);
     if (!lookup_)
-      scene::refuse_key(world_.rig(), sensor_key(world_.rig(), sensor_) + ".distortion",
-                        "got one that folds the picture, does not reach its corners or takes a "
-                        "wide picture of over 8192 px, allowed lenses that are one to one on it");
+      refuse("distortion",
+             "got one that folds the picture, does not reach its corners or takes a wide picture "
+             "of over 8192 px, allowed lenses that are one to one on it");
     width_px_ = lookup_->wide_width_px(), height_px_ = lookup_->wide_height_px();
     lens_ = lens_of_intrinsics(lookup_->wide_intrinsics(), width_px_, height_px_);
   }
@@ -69,8 +96,9 @@ class CameraSensor {
   void draw(const Moment& moment) {
     const FramePose pose = world_.sensor_at(sensor_, moment);
     const glm::dmat3 axes = {-pose.axes[1], pose.axes[0], pose.axes[2]};
-    const View view = make_view(pose.position_m, axes, lens_, static_cast<float>(sensor_.near_m),
-                                width_px_, height_px_);
+    View view = make_view(pose.position_m, axes, lens_, static_cast<float>(sensor_.near_m),
+                          width_px_, height_px_);
+    view.projection = projection_;
     const std::vector<scene::GivenPose> given = world_.given_poses(moment);
     options_.poses = given;
     render::render_frame(world_.world(), view, moment.t_s(), options_, workspace_, target_,
@@ -133,18 +161,30 @@ class CameraSensor {
     info.header = header;
     info.height = static_cast<std::uint32_t>(sensor_.height_px);
     info.width = static_cast<std::uint32_t>(sensor_.width_px);
-    info.distortion_model = "plumb_bob";
-    info.d = sensor_.distortion;
+    info.r = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    switch (projection_.kind) {
+      case ProjectionKind::kPerspective:
+        info.distortion_model = "plumb_bob";
+        info.d = sensor_.distortion;
+        break;
+      case ProjectionKind::kFisheye:
+        info.distortion_model = "equidistant";
+        info.d.assign(projection_.bend.begin(), projection_.bend.end());
+        break;
+      case ProjectionKind::kEquirectangular:  // no matrix says what it sees
+        info.distortion_model = "equirectangular";
+        return info;
+    }
     const double cx = k_.cx - 0.5, cy = k_.cy - 0.5;
     info.k = {k_.fx, 0.0, cx, 0.0, k_.fy, cy, 0.0, 0.0, 1.0};
-    info.r = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
     info.p = {k_.fx, 0.0, cx, 0.0, 0.0, k_.fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0};
     return info;
   }
 
   const scene::Sensor& sensor_;
   SimWorld& world_;
-  Intrinsics k_;
+  Projection projection_;
+  Intrinsics k_;                      // of perspective cameras and fisheyes
   Lens lens_;                         // of the pinhole picture that is drawn,
   int width_px_ = 0, height_px_ = 0;  // and its size
   std::optional<LensLookup> lookup_;  // none: it is the picture

@@ -85,8 +85,12 @@ struct Sensor {
   int width_px = 640, height_px = 360;
   double fov_y_rad = radians(50.0);
   double near_m = 0.25;
-  std::vector<double> distortion = std::vector<double>(5);  // k1, k2, p1, p2, k3
-  bool depth = false;                                       // a picture of it besides
+  std::vector<double> distortion = std::vector<double>(5);   // k1, k2, p1, p2, k3
+  bool depth = false;                                        // a picture of it besides
+  ProjectionKind projection = ProjectionKind::kPerspective;  // as Camera has the next four
+  double fisheye_fov_rad = radians(180.0);
+  glm::dvec4 fisheye_k{0.0};
+  SensorNoise noise{};
 
   // For cameras and lidars: labels besides.
   bool classes = false, ids = false;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scene/file/parameter_row.h"
+#include "scene/file/scene_choices.h"
 
 namespace swell::scene {
 namespace {
@@ -17,6 +18,11 @@ struct PoseName {
 
 using SensorRow = Row<Sensor>;
 using Keys = std::vector<Parameter<Sensor>>;
+
+struct SensorProjectionName {
+  static constexpr auto words = ProjectionName::words;
+  auto& operator()(auto& sensor) const { return sensor.projection; }
+};
 
 // Three angles in radians.
 Parameter<Sensor> rpy_parameter() {
@@ -44,20 +50,53 @@ void add_labels(Keys& keys, std::string_view classes, std::string_view ids) {
   keys.push_back(SensorRow::plain<bool>("id", ParameterKind::kBoolean, SWELL_FIELD(ids), ids));
 }
 
+// What a scene's camera has as well.
+void add_projection(Keys& keys) {
+  keys.push_back(SensorRow::choice(
+      "projection", SensorProjectionName{},
+      "camera_info has of a fisheye the model \"equidistant\" with k1 to k4 and K; of an "
+      "equirectangular camera the model \"equirectangular\", no D, and K and P of zeros"));
+  keys.push_back(SensorRow::angle(
+      "fisheye_fov_deg", {1, 360, "deg"}, SWELL_FIELD(fisheye_fov_rad),
+      "cone that a fisheye shows, which touches the picture's nearer edges; black outside"));
+  keys.push_back(SensorRow::vector("fisheye_k", {-10, 10}, SWELL_FIELD(fisheye_k),
+                                   "k1 to k4 of a fisheye, as OpenCV has them"));
+}
+
+void add_noise(Keys& keys) {
+  keys.push_back(SensorRow::or_zero(SensorRow::number(
+      "full_well_e", {100, 1e7, "electrons"}, SWELL_FIELD(noise.full_well_e),
+      "that a pixel's channel holds: eight times those of light that is shown at 0.7; 0: no "
+      "noise")));
+  keys.push_back(SensorRow::number("iso", {100, 1e6}, SWELL_FIELD(noise.iso),
+                                   "at 200 the picture is made of half as many electrons as at "
+                                   "100"));
+  keys.push_back(SensorRow::number("read_noise_e", {0, 10000, "electrons"},
+                                   SWELL_FIELD(noise.read_noise_e),
+                                   "standard deviation, beside that of the light"));
+  keys.push_back(SensorRow::integer("noise_seed", ParameterKind::kInteger, {0, kMaxSeed},
+                                    SWELL_FIELD(noise.seed), "another number, other noise"));
+}
+
 void add_camera(Keys& keys) {
   keys.push_back(SensorRow::integer("width_px", ParameterKind::kInteger, {1, 8192, "px"},
                                     SWELL_FIELD(width_px), "of the picture"));
   keys.push_back(SensorRow::integer("height_px", ParameterKind::kInteger, {1, 8192, "px"},
                                     SWELL_FIELD(height_px), "of the picture"));
-  keys.push_back(SensorRow::angle("fov_y_deg", {1, 170, "deg"}, SWELL_FIELD(fov_y_rad),
-                                  "from the picture's top to its bottom, without the lens"));
+  keys.push_back(SensorRow::angle(
+      "fov_y_deg", {1, 170, "deg"}, SWELL_FIELD(fov_y_rad),
+      "from the picture's top to its bottom, without the lens; not of wide cameras"));
   keys.push_back(SensorRow::number("near_m", {0.001, 100, "m"}, SWELL_FIELD(near_m),
                                    "nearer things are cut off"));
   keys.push_back(SensorRow::list("distortion", {-100, 100}, 5, 5, SWELL_FIELD(distortion),
                                  "k1, k2, p1, p2, k3 of the lens, as OpenCV has them"));
-  keys.push_back(SensorRow::plain<bool>("depth", ParameterKind::kBoolean, SWELL_FIELD(depth),
-                                        "publish depth along the view axis in metres, 32FC1"));
+  keys.push_back(
+      SensorRow::plain<bool>("depth", ParameterKind::kBoolean, SWELL_FIELD(depth),
+                             "publish depth along the view axis, of wide cameras distance, "
+                             "in metres, 32FC1"));
   add_labels(keys, "publish the label \"class\", 16UC1", "publish the label \"id\", 32SC1");
+  add_projection(keys);
+  add_noise(keys);
 }
 
 struct LidarPatternName {

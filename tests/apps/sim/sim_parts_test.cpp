@@ -227,6 +227,7 @@ body = "mast"
 rpy_deg = [0, 30, 0]
 [[altimeter]]
 name = "up"
+rate_hz = 1
 body = "mast"
 rpy_deg = [0, -30, 0]
 [[altimeter]]
@@ -332,6 +333,47 @@ depth = true
   float last_depth = 0.0f;
   std::memcpy(&last_depth, depth.data.data() + depth.data.size() - 4 * 8, sizeof last_depth);
   EXPECT_NEAR(last_depth, 1.0 / (3.5 / info.k[4]), 0.02);
+}
+
+TEST(Sensors, ThatAreWideTellTheirModelsAsRosHasThem) {
+  const auto last = last_messages(R"(
+[[camera]]
+name = "up"
+position_m = [0, 0, 5]
+rpy_deg = [0, -90, 0]
+projection = "fisheye"
+fisheye_fov_deg = 200
+fisheye_k = [0.02, -0.003, 0, 0]
+full_well_e = 9000
+width_px = 24
+height_px = 16
+depth = true
+[[camera]]
+name = "all"
+rate_hz = 1
+position_m = [0, 0, 5]
+projection = "equirectangular"
+width_px = 32
+height_px = 16
+depth = true
+)");
+  const auto& up = std::get<msg::CameraInfo>(last.at("/up/camera_info"));
+  EXPECT_EQ(up.distortion_model, "equidistant");
+  EXPECT_EQ(up.d, (std::vector<double>{0.02, -0.003, 0.0, 0.0}));
+  // The cone touches the upper and the lower edge.
+  const double half = radians(100.0);
+  EXPECT_NEAR(up.k[0], 8.0 / (half * (1.0 + 0.02 * half * half - 0.003 * std::pow(half, 4))), 1e-9);
+  EXPECT_EQ(up.k[2], 11.5);
+  const auto& all = std::get<msg::CameraInfo>(last.at("/all/camera_info"));
+  EXPECT_EQ(all.distortion_model, "equirectangular");
+  EXPECT_TRUE(all.d.empty());
+  EXPECT_EQ(all.k[0], 0.0);  // as CameraInfo says of cameras without a matrix
+  EXPECT_EQ(all.width, 32u);
+  // Straight down it is 5 m to the water, and the depth of wide cameras is the distance.
+  const auto& depth = std::get<msg::Image>(last.at("/all/depth"));
+  float lowest = 0.0f;
+  std::memcpy(&lowest, depth.data.data() + 4 * (15 * 32 + 8), sizeof lowest);
+  EXPECT_NEAR(lowest, 5.0 / std::cos(radians(90.0 / 16.0)), 0.05);
 }
 
 }  // namespace
