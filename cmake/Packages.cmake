@@ -53,12 +53,15 @@ nlohmann-json3-dev, zlib1g-dev, libpng-dev, libxxhash-dev"
   "Headers, static libraries, CMake and pkg-config files of Swell, for programs in"
   "C and C++. The recommended packages are for C++ alone.")
 swell_add_package(swell SECTION graphics RECOMMENDS "${modules}" 
-  SUGGESTS "swell-doc, swell-view, libegl1, libgl1-mesa-dri"  # these two for swell-bench peer
+  SUGGESTS "swell-doc, swell-sim, swell-view, libegl1, libgl1-mesa-dri"  # these two for swell-bench peer
   DESCRIPTION "real-time ocean renderer for CPUs (programs and scenes)"
   "Swell draws the sea on CPU cores, with the same pixels on every run."
   "swell-render draws pictures and sequences with labels, swell-dataset labelled"
-  "data sets, swell-sim records what sensors measure, and swell-bench measures."
-  "None needs a window.")
+  "data sets, and swell-bench measures. None needs a window.")
+swell_add_package(swell-sim SECTION science RECOMMENDS "swell ${same}, ${modules}"
+  DESCRIPTION "real-time ocean renderer for CPUs (sensors)"
+  "swell-sim runs the cameras, lidars and other sensors of a boat in a sea of"
+  "Swell, and records or publishes what they measure.")
 swell_add_package(swell-images SECTION graphics
   DESCRIPTION "real-time ocean renderer for CPUs (image files)"
   "The module by which Swell reads image files and writes other formats than PNG,"

@@ -3,8 +3,7 @@
 # Needs root or sudo only if there is something to install.
 #   scripts/setup.sh [GROUP ...]
 # GROUP: viewer, dds, gazebo, tests, python, film, browser, cluster, docs, release, clang, tidy, arm64: packages_GROUP.txt
-# too,
-# without which everything else works. Where they cannot be had one line says so.
+# as well, without which everything else works. Where they cannot be had one line says so.
 set -eu
 cd "$(dirname "$0")"
 
