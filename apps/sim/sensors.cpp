@@ -10,6 +10,7 @@
 #include "apps/sim/sim_world.h"
 #include "math/elementary.h"
 #include "math/enum_table.h"
+#include "render/world/world.h"
 
 namespace swell::apps {
 namespace {
