@@ -82,7 +82,13 @@ class LidarSensor {
         duration_s_(sensor.lidar.rolling_shutter ? 1.0 / sensor.rate_hz : 0.0),
         pattern_(pattern_of(sensor.lidar, duration_s_)),
         returns_(pattern_.beams.size()),
-        topic_(simulation.topic("/" + sensor.name + "/points", msg::PointCloud2::kType)) {}
+        topic_(simulation.topic("/" + sensor.name + "/points", msg::PointCloud2::kType)) {
+    const scene::RigBody* body = world.rig().find_body(sensor.body);
+    if (body && body->is_input && sensor.lidar.rolling_shutter)
+      scene::refuse_key(world.rig(), sensor_key(world.rig(), sensor) + ".rolling_shutter",
+                        "got true on a body whose pose comes from outside, allowed false: where it "
+                        "will be is not known");
+  }
 
   void publish(const Moment& moment, const Emit& emit) {
     scan(moment);
@@ -106,6 +112,8 @@ class LidarSensor {
     scan.reach_m = lidar.reach_m;
     scan.range_noise_m = lidar.range_noise_m;
     scan.seed = lidar.seed;
+    const std::vector<scene::GivenPose> poses = world_.given_poses(moment);
+    scan.poses = poses;
     world_.lidar().scan(scan, returns_, world_.workers());
   }
 

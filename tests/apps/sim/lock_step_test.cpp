@@ -12,6 +12,7 @@
 #include "apps/sim/sensors.h"
 #include "apps/sim/sim_world.h"
 #include "render/world/world.h"
+#include "scene/scene_error.h"
 
 namespace swell::apps {
 namespace {
@@ -145,6 +146,57 @@ TEST(LockStep, SensorsOfABodyWaitForItsFirstPoseAndThenGoWithIt) {
   const auto& imu = std::get<msg::Imu>(run.last.at("/imu/data"));
   EXPECT_NEAR(imu.linear_acceleration.x, 0.0, 1e-9);
   EXPECT_NEAR(imu.linear_acceleration.z, 9.81, 1e-9);
+}
+
+constexpr const char* kBeamAlongX = R"(
+[[lidar]]
+name = "lidar"
+position_m = [0, 40, 0.3]
+pattern = "grid"
+columns = 1
+rows = 1
+fov_x_deg = 0.01
+fov_y_deg = 0.01
+)";
+
+TEST(LockStep, LidarsMeetAnObjectWhereItsPoseFromOutsideIs) {
+  const std::string rig =
+      std::string("[[body]]\nframe = \"boat\"\nmount = \"ball\"\npose = \"input\"\n") + kBeamAlongX;
+  const std::string scene = std::string(kSea) +
+                            "[wind]\nspeed_mps = 0\n[[object]]\nkind = \"sphere\"\n"
+                            "name = \"ball\"\nposition_m = [30, 40]\n";
+  const auto range_m = [&](double x_m) {
+    const RunSettings settings = {.duration_s = 0.05, .is_clock_input = true};
+    const RunOf run = run_of(
+        rig, settings,
+        [&](Inputs& inputs) {
+          inputs.put_pose(kClockTopic, "boat", boat_pose(0, {x_m, 40.0, 0.0}));
+          inputs.put_clock(kClockTopic, 0);
+        },
+        1, scene);
+    const auto& cloud = std::get<msg::PointCloud2>(run.last.at("/lidar/points"));
+    float x;
+    std::memcpy(&x, cloud.data.data(), sizeof x);  // the first field
+    return static_cast<double>(x);
+  };
+  const double near_m = range_m(20.0);
+  EXPECT_GT(near_m, 15.0);
+  EXPECT_LT(near_m, 20.0);
+  EXPECT_NEAR(range_m(27.0), near_m + 7.0, 1e-4);
+}
+
+TEST(LockStep, LidarsOnABodyFromOutsideHaveNoRollingShutter) {
+  const std::string rig = "[[body]]\nframe = \"boat\"\npose = \"input\"\n" +
+                          std::string(kBeamAlongX) + "body = \"boat\"\nrolling_shutter = true\n";
+  try {
+    run_of(rig, {.duration_s = 0.05, .is_clock_input = true}, [](Inputs&) {});
+    FAIL() << "taken";
+  } catch (const scene::SceneError& error) {
+    EXPECT_EQ(
+        std::string(error.what()),
+        "rig.toml:14: column 19: lidar[0].rolling_shutter, got true on a body whose pose comes "
+        "from outside, allowed false: where it will be is not known");
+  }
 }
 
 TEST(LockStep, OfTheSameInputsIsTheSameWhateverComesTooEarlyAndOnAnyThreads) {
