@@ -296,6 +296,11 @@ static void test_camera_faults(Opened o) {
   const double bad[] = {kNotANumber, INFINITY, -INFINITY, kHuge, -kHuge};
   swell_camera camera = {.size = sizeof camera};
   BAD(swell_camera_look(NULL, 0, 0, 0, 50, 9, 9, &camera));
+  EXPECT(swell_camera_look(eye, 0, 0, 0, 50, 96, 64, &camera) == SWELL_OK);
+  camera.projection = 3;
+  swell_frame unknown = small_frame();
+  unknown.camera = &camera;
+  BAD(swell_render(o.session, &unknown, o.picture));
   BAD(swell_camera_look(eye, 0, 0, 0, 50, 9, 9, NULL));
   BAD(swell_camera_look(eye, 0, 0, 0, 0, 9, 9, &camera));
   BAD(swell_camera_look(eye, 0, 0, 0, 50, 0, 9, &camera));
@@ -310,15 +315,20 @@ static void test_camera_faults(Opened o) {
     BAD(swell_camera_look(eye, 0, bad[i], 0, 50, 9, 9, &camera));
     BAD(swell_camera_look(eye, 0, 0, bad[i], 50, 9, 9, &camera));
     BAD(swell_camera_look(eye, 0, 0, 0, bad[i], 9, 9, &camera));
-    /* Each number of a camera in turn. */
-    double* const begin = camera.eye_m;
-    for (size_t n = 0; n < (sizeof camera - offsetof(swell_camera, eye_m)) / sizeof(double); ++n) {
-      EXPECT(swell_camera_look(eye, 0, 0, 0, 50, 96, 64, &camera) == SWELL_OK);
-      begin[n] = bad[i];
-      swell_frame frame = small_frame();
-      frame.camera = &camera;
-      BAD(swell_render(o.session, &frame, o.picture));
-    }
+    /* Each number of a camera in turn, those of fisheyes in one. */
+    double* const numbers[] = {camera.eye_m, camera.fisheye_k};
+    const size_t counts[] = {
+        (offsetof(swell_camera, projection) - offsetof(swell_camera, eye_m)) / sizeof(double),
+        (sizeof camera - offsetof(swell_camera, fisheye_k)) / sizeof(double)};
+    for (size_t part = 0; part < 2; ++part)
+      for (size_t n = 0; n < counts[part]; ++n) {
+        EXPECT(swell_camera_look(eye, 0, 0, 0, 50, 96, 64, &camera) == SWELL_OK);
+        if (part == 1) camera.projection = SWELL_FISHEYE;
+        numbers[part][n] = bad[i];
+        swell_frame frame = small_frame();
+        frame.camera = &camera;
+        BAD(swell_render(o.session, &frame, o.picture));
+      }
   }
   EXPECT(swell_camera_look(eye, 0, 0, 0, 50, 96, 64, &camera) == SWELL_OK);
   memset(camera.quaternion_wxyz, 0, sizeof camera.quaternion_wxyz);

@@ -238,7 +238,8 @@ TEST_F(CommandLine, WhatIsUnknownIsNamed) {
   const Case bench[] = {
       {{"bogus"},
        {"unknown mode", "'bogus'",
-        "frame, lod, optics, papers, peer, query, scaling, sea-state, shading, terrain, waves"}},
+        "frame, lidar, lod, optics, papers, peer, query, scaling, sea-state, shading, terrain, "
+        "waves"}},
       {{"frme", "--scene", scene_}, {"unknown mode, got 'frme' (did you mean 'frame'?), "}},
       {{"--bogus", "frame"}, {"unknown option", "'--bogus'"}},
       {{"--scene", scene_, "frame"}, {"unknown option", "'--scene'", "after"}},
