@@ -5,10 +5,10 @@
 
 namespace swell::apps {
 
-// "0.1.0".
+// "0.9.0".
 std::string version();
 
-// "0.1.0 (commit 0123456789ab, avx512)": with the commit that was built, "unknown" outside a
+// "0.9.0 (commit 0123456789ab, avx512)": with the commit that was built, "unknown" outside a
 // repository and with a "+" for changes since, and the SIMD target that this CPU gets.
 std::string full_version();
 

@@ -308,7 +308,7 @@ TEST_F(LabelOutput, TheSidecarHasTheseKeysInThisOrder) {
                          "size", "labels_file", "picture_file", "picture_xxh3", "intrinsics",
                          "near_m", "pose", "channels", "classes", "objects"}));
   EXPECT_EQ(json["program"], "swell-render");
-  EXPECT_EQ(json["version"], "0.1.0");
+  EXPECT_EQ(json["version"], "0.9.0");
   EXPECT_EQ(json["command_line"].back(), "2.5") << "what draws the picture again";
   EXPECT_EQ(json["scene"]["file"], "bay.toml");
   EXPECT_EQ(json["scene"]["name"], "bay");

@@ -170,7 +170,7 @@ TEST_F(Sequence, FilesSayWhatTheyShow) {
   for (const char* name : {"a.png", "a.labels.exr"}) {
     const std::string file = folder_.file(name);
     EXPECT_EQ(note_of(file, "swell:t_s"), "0.5") << name;
-    EXPECT_EQ(note_of(file, "swell:version"), "0.1.0");
+    EXPECT_EQ(note_of(file, "swell:version"), "0.9.0");
     EXPECT_EQ(note_of(file, "swell:scene_xxh3").size(), 16u);
     // The order of the options is the program's.
     EXPECT_EQ(note_of(file, "swell:command"),

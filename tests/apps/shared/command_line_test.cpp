@@ -59,14 +59,14 @@ TEST_F(CommandLine, BenchHelpNamesEverySubcommand) {
 }
 
 TEST_F(CommandLine, VersionIsOneLine) {
-  EXPECT_TRUE(run_render({"--version"}).out.starts_with("swell-render 0.1.0 (commit "));
-  EXPECT_TRUE(run_bench({"--version"}).out.starts_with("swell-bench 0.1.0 (commit "));
+  EXPECT_TRUE(run_render({"--version"}).out.starts_with("swell-render 0.9.0 (commit "));
+  EXPECT_TRUE(run_bench({"--version"}).out.starts_with("swell-bench 0.9.0 (commit "));
 }
 
 TEST_F(CommandLine, VersionAsJsonHasTargetsAndTheSamenessVersion) {
   const auto json = Json::parse(run_bench({"--version", "--json"}).out);
   EXPECT_EQ(json.at("program"), "swell-bench");
-  EXPECT_EQ(json.at("version"), "0.1.0");
+  EXPECT_EQ(json.at("version"), "0.9.0");
   EXPECT_FALSE(json.at("commit").get<std::string>().empty());
   EXPECT_GE(json.at("sameness"), 1);
   const auto targets = json.at("simd_targets").get<std::vector<std::string>>();
