@@ -32,6 +32,13 @@ struct Made {
       return line.starts_with(std::string(part) + ": ") && line.ends_with("read from the cache");
     });
   }
+  // How long it took, as logged; 0: it was not made.
+  double making_s(std::string_view part) const {
+    const std::string begin = std::string(part) + ": ";
+    for (const std::string& line : lines)
+      if (line.starts_with(begin)) return std::stod(line.substr(begin.size()));
+    return 0.0;
+  }
   std::uint64_t hash() const {
     ocean::SeaFrame sea;
     Shot shot;
@@ -54,14 +61,17 @@ TEST(PartCache, GivesAnotherWorldTheSamePicture) {
     const ScratchFolder folder;
     const scene::Scene scene = load_shipped(name);
     const Made none(scene, {}), first(scene, folder.path()), second(scene, folder.path());
-    for (const std::string part : {"air", "sky"}) {
-      EXPECT_FALSE(first.was_read(part)) << name;
-      EXPECT_TRUE(second.was_read(part)) << name;
+    int read = 0;
+    for (const std::string part :
+         {"air", "sky", "land", "shelter", "land shadow", "forest", "clouds"}) {
+      EXPECT_FALSE(first.was_read(part)) << name << ' ' << part;
+      // What takes 10 ms is kept; a machine may be faster.
+      if (first.making_s(part) >= 0.011) {
+        EXPECT_TRUE(second.was_read(part)) << name << ' ' << part;
+      }
+      read += second.was_read(part);
     }
-    for (const std::string part : {"land", "shelter", "land shadow"})
-      EXPECT_EQ(second.was_read(part), scene.terrain.has_value()) << name << ' ' << part;
-    EXPECT_EQ(second.was_read("forest"), !scene.trees.empty()) << name;
-    EXPECT_EQ(second.was_read("clouds"), scene.clouds.kind != scene::CloudKind::kNone) << name;
+    EXPECT_GE(read, 2) << name;
     EXPECT_EQ(first.hash(), none.hash()) << name;
     EXPECT_EQ(second.hash(), none.hash()) << name;
   }
