@@ -166,7 +166,7 @@ class Dds(unittest.TestCase):
         subprocess.run([BIN / "swell-sim", "--scene", SCENE, "--rig", RIG, *SMALL, "--record", probe, "--duration",
                         "0.01", "--rig-set", "clock_hz=0"], check=True, stdout=subprocess.DEVNULL)
         topics = self.topics_of(probe)
-        self.assertEqual(len(topics), 14)
+        self.assertEqual(len(topics), 15)
         reader = self.peer("read", *topics)
         reader.wait_for("ready")
         path = self.folder / "run.mcap"
@@ -192,7 +192,7 @@ class Dds(unittest.TestCase):
         lines = reader.finish()
         got = after(text for text in lines if text.startswith("/"))
         recorded = after(map(line, mcap_reader.read(path).messages))
-        self.assertEqual(len(recorded), 1060)
+        self.assertEqual(len(recorded), 1080)
         self.assertEqual(got, recorded)
         self.assertEqual(sum(text.startswith("/tf_static ") for text in lines), 1)
 
