@@ -28,7 +28,8 @@ TOPICS = {
     "/camera/camera_info": ("/camera/camera_info", "CameraInfo"), "/imu/data": ("/imu", "IMU"),
     "/gnss/fix": ("/gnss", "NavSat"), "/odom": ("/odom", "Odometry"), "/echo_sounder": ("/echo_sounder", "LaserScan"),
     "/gauge": ("/gauge", "LaserScan"), "/bow_wave": ("/bow_wave", "Vector3d"), "/buoy_wave": ("/buoy_wave", "Vector3d"),
-    "/tf": ("/tf", "Pose_V"), "/tf_static": ("/tf_static", "Pose_V")}
+    "/lidar/points": ("/lidar/points", "PointCloudPacked"), "/tf": ("/tf", "Pose_V"),
+    "/tf_static": ("/tf_static", "Pose_V")}
 COMMANDS = pathlib.Path("/usr/libexec/ignition/transport11")  # where Debian has what `ign topic` and `ign service` run
 
 
@@ -136,6 +137,15 @@ def transforms(values, _):
     return {"header": {"stamp": time_of(values["transforms"][0]["header"]["stamp"])}, "pose": poses}
 
 
+TYPES = ("INT8", "UINT8", "INT16", "UINT16", "INT32", "UINT32", "FLOAT32", "FLOAT64")  # from 1 on in PointField
+
+
+def cloud(values, _):
+    return {**values, "header": header(values["header"]), "data": base64.b64encode(values["data"]).decode(),
+            "fields": [],
+            "field": [{**field, "datatype": TYPES[field["datatype"] - 1]} for field in values["fields"]]}
+
+
 MESSAGES = {
     "/camera/image_raw": lambda values, _: image(values, "RGB_INT8"),
     "/camera/depth": lambda values, _: image(values, "R_FLOAT32"),
@@ -156,7 +166,7 @@ MESSAGES = {
     "/echo_sounder": scan, "/gauge": scan,
     "/bow_wave": lambda values, _: {"header": header(values["header"]), **values["point"]},
     "/buoy_wave": lambda values, _: {"header": header(values["header"]), **values["point"]},
-    "/tf": transforms, "/tf_static": transforms}
+    "/lidar/points": cloud, "/tf": transforms, "/tf_static": transforms}
 
 
 def infinite(value):
@@ -311,7 +321,7 @@ class Transport(unittest.TestCase):
 
     def test_what_is_not_right_is_one_line(self):
         ok = ("--scene", SCENE, "--rig", RIG)
-        for arguments, words in (((*ok, "--gazebo", "yes"), "--gazebo: got 'yes', allowed on or off"),
+        for arguments, words in (((*ok, "--gazebo", "yes"), "--gazebo: got 'yes', allowed off or on"),
                                  ((*ok, "--gazebo", "off"), "got nothing to do"),
                                  ((*ok, "--gazebo", "on", "--clock", "input", "--gazebo-poses", "a b", "--rig-set",
                                    "body[0].mount=", "--rig-set", "body[0].pose=input"),
