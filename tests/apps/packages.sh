@@ -64,6 +64,7 @@ for page in "$root"/usr/share/man/man1/*.gz; do
 done
 # Whose code is compiled in is in them: of all headers of the build those that are more than an interface in C.
 plain='libc6|linux-libc|libstdc..-.*|libgcc-.*|libpython3.*|libsdl2|zlib1g|libpng|libturbojpeg0|libmeshoptimizer'
+plain="$plain|libzstd|uuid|cyclonedds"
 tests='libgtest|libkissfft|libosmesa6|libegl|libgl'
 for name in $(ninja -C "$build" -t deps | sed -n 's#^ *\(/usr/include/.*\)#\1#p' | sort -u | xargs dpkg -S |
     sed 's/:.*//; s/^libboost[0-9.]*/libboost/' | sort -u | grep -vxE "($plain|$tests)-dev"); do
