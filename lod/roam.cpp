@@ -70,7 +70,7 @@ AdaptStatistics begin_anew(Roam::Tree& tree, int budget) {
 // touches, and among renewed ones the above holds: each moves at most twice.
 AdaptStatistics move_to_target(Roam::Tree& tree, int budget, const AdaptLimits& limits,
                                AdaptStatistics done) {
-  const int operation_cap = 4 * tree.max_triangles;
+  const int operation_cap = (limits.priority_groups > 1 || done.anew ? 4 : 2) * tree.max_triangles;
   for (int step = 1;; ++step) {
     const std::optional<QueueMember> best = tree.split_queue.first();
     const bool wanted = best && best->key < tree.frame.end_key;
