@@ -13,7 +13,8 @@ class DdsTransport : public Transport {
   DdsTransport(const DdsEnvironment& environment, bool is_patient)
       : domain_(environment, is_patient) {}
 
-  std::unique_ptr<MessageOutput> output(std::span<const Topic> topics) override {
+  std::unique_ptr<MessageOutput> output(std::span<const Topic> topics,
+                                        const scene::Water&) override {
     return std::make_unique<DdsOutput>(domain_, topics);
   }
   std::unique_ptr<InputSource> source(bool takes_clock, Inputs& inputs) override {

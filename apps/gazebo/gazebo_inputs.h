@@ -30,8 +30,7 @@ struct GazeboInputTopics {
 // Listens from its making to its end, after which nothing is taken any more.
 class GazeboInputs {
  public:
-  // Throws OptionError for a name that the transport does not take, and where the program was built
-  // without one.
+  // Throws OptionError for a name that the transport does not take; without one, as check_gazebo().
   GazeboInputs(const GazeboInputTopics& topics, GazeboTakers takers);
   ~GazeboInputs();
   GazeboInputs(const GazeboInputs&) = delete;

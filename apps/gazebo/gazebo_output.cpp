@@ -102,6 +102,8 @@ GazeboOutput::GazeboOutput(std::span<const Topic> topics, const scene::Water& wa
 
 GazeboOutput::~GazeboOutput() = default;
 
+void check_gazebo() {}
+
 std::string GazeboOutput::audience() const {
   const std::string host = gz_transport::determineHost();
   return fmt::format("gazebo: partition {} ({}), address {} ({}): {} can hear it",

@@ -35,6 +35,9 @@ and, without --inputs, takes
                               without one; --gazebo-poses TOPIC: all there, by name
 )";
 
+// Throws OptionError where the program was built without such a transport.
+void check_gazebo();
+
 // Topics and messages as apps/gazebo/convert.h has them; a topic whose messages Gazebo has no
 // counterpart of is left out. Where nobody listens to a topic, its messages are not converted. A
 // kept topic's last message is published again in each second of the stamps: the transport keeps
@@ -42,8 +45,7 @@ and, without --inputs, takes
 // (1000) messages for each listener. Used by one thread at a time.
 class GazeboOutput : public MessageOutput {
  public:
-  // Throws OptionError for a name that the transport does not take, and where the program was built
-  // without one.
+  // Throws OptionError for a name that the transport does not take; without one, as check_gazebo().
   GazeboOutput(std::span<const Topic> topics, const scene::Water& water);
   ~GazeboOutput() override;
   GazeboOutput(const GazeboOutput&) = delete;

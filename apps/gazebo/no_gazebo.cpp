@@ -4,26 +4,23 @@
 #include "apps/shared/program.h"
 
 namespace swell::apps {
-namespace {
 
-[[noreturn]] void refuse() {
+void check_gazebo() {
   throw OptionError(
       "command line: --gazebo: got 'on', allowed off: this swell-sim was built without Gazebo's "
       "transport");
 }
 
-}  // namespace
-
 struct GazeboOutput::State {};
 struct GazeboInputs::State {};
 
-GazeboOutput::GazeboOutput(std::span<const Topic>, const scene::Water&) { refuse(); }
+GazeboOutput::GazeboOutput(std::span<const Topic>, const scene::Water&) { check_gazebo(); }
 GazeboOutput::~GazeboOutput() = default;
 std::string GazeboOutput::audience() const { return {}; }
 void GazeboOutput::write(std::size_t, std::int64_t, const msg::Message&) {}
 void GazeboOutput::finish() {}
 
-GazeboInputs::GazeboInputs(const GazeboInputTopics&, GazeboTakers) { refuse(); }
+GazeboInputs::GazeboInputs(const GazeboInputTopics&, GazeboTakers) { check_gazebo(); }
 GazeboInputs::~GazeboInputs() = default;
 
 }  // namespace swell::apps

@@ -7,7 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "apps/gazebo/gazebo_inputs.h"
 #include "apps/gazebo/gazebo_output.h"
 #include "apps/mcap/mcap_output.h"
 #include "apps/shared/options.h"
@@ -56,35 +55,12 @@ void check_inputs(const SimOptions& options, const scene::Rig& rig) {
           "got \"input\" without --inputs, --dds on or --gazebo on, allowed with one");
 }
 
-class GazeboSource : public InputSource {
- public:
-  GazeboSource(const SimOptions& options, Inputs& inputs)
-      : inputs_(inputs),
-        gazebo_({inputs.frames(), options.gazebo_poses, options.run.is_clock_input},
-                takers_of(inputs)) {
-    inputs.begin();
-  }
-  ~GazeboSource() override {
-    inputs_.stop();  // it may wait for the loop
-  }
-
- private:
-  static GazeboTakers takers_of(Inputs& inputs) {
-    return {
-        [&inputs](std::string_view topic, std::int64_t t_ns) { inputs.put_clock({topic}, t_ns); },
-        [&inputs](std::string_view topic, std::string_view frame, std::int64_t t_ns,
-                  const msg::Pose& pose) {
-          const auto& [p, q] = pose;
-          inputs.put_pose({topic}, frame, {t_ns, {p.x, p.y, p.z}, {q.w, q.x, q.y, q.z}});
-        },
-        [&inputs](std::string_view topic, const std::string& what) {
-          inputs.refuse({topic}, what);
-        }};
-  }
-
-  Inputs& inputs_;
-  GazeboInputs gazebo_;
-};
+std::vector<std::unique_ptr<Transport>> open_transports(const SimOptions& options) {
+  std::vector<std::unique_ptr<Transport>> transports;
+  if (options.dds) transports.push_back(open_dds(options.run.is_clock_input));
+  if (options.gazebo) transports.push_back(open_gazebo(options.gazebo_poses));
+  return transports;
+}
 
 void run(const SimOptions& options) {
   if (options.rig_keys) {
@@ -94,8 +70,7 @@ void run(const SimOptions& options) {
   select_simd(options.simd);
   // Before the world is made:
   if (!options.record.empty()) check_output_place(options.record);
-  std::unique_ptr<Transport> dds;
-  if (options.dds) dds = open_dds(options.run.is_clock_input);
+  const std::vector<std::unique_ptr<Transport>> transports = open_transports(options);
   scene::Rig rig = scene::load_rig(options.rig, options.rig_settings);
   check_inputs(options, rig);
   if (options.run.is_clock_input) rig.clock_hz = 0.0;  // another publishes it
@@ -114,18 +89,12 @@ void run(const SimOptions& options) {
   std::vector<std::unique_ptr<InputSource>> sources;
   if (!options.inputs.empty())
     sources.push_back(std::make_unique<JsonInputs>(options.inputs, inputs));
-  if (dds) {
-    outputs.push_back(dds->output(simulation.topics));
-    if (options.inputs.empty()) sources.push_back(dds->source(options.run.is_clock_input, inputs));
-    std::fputs(fmt::format("note: {}\n", dds->audience()).c_str(), stderr);
-  }
-
-  if (options.gazebo) {
-    auto gazebo = std::make_unique<GazeboOutput>(simulation.topics, world.water());
-    std::fputs(fmt::format("note: {}\n", gazebo->audience()).c_str(), stderr);
-    outputs.push_back(std::move(gazebo));
-    if (options.inputs.empty() && (options.run.is_clock_input || !inputs.frames().empty()))
-      sources.push_back(std::make_unique<GazeboSource>(options, inputs));
+  const bool hears =
+      options.inputs.empty() && (options.run.is_clock_input || !inputs.frames().empty());
+  for (const auto& transport : transports) {
+    outputs.push_back(transport->output(simulation.topics, world.water()));
+    if (hears) sources.push_back(transport->source(options.run.is_clock_input, inputs));
+    std::fputs(fmt::format("note: {}\n", transport->audience()).c_str(), stderr);
   }
 
   take_signals();

@@ -1,5 +1,4 @@
-// Transports between processes: what a simulation's messages go to and its inputs come from. Each
-// has a folder of its own, which defines its function below where its packages are.
+// Transports between processes: what a simulation's messages go to and its inputs come from.
 #pragma once
 
 #include <memory>
@@ -9,6 +8,10 @@
 #include "apps/messages/message_output.h"
 #include "apps/sim/inputs.h"
 
+namespace swell::scene {
+class Water;
+}
+
 namespace swell::apps {
 
 // It has to outlive what it gives.
@@ -16,8 +19,9 @@ class Transport {
  public:
   virtual ~Transport() = default;
 
-  // Publishes the topics.
-  virtual std::unique_ptr<MessageOutput> output(std::span<const Topic> topics) = 0;
+  // Publishes the topics, and answers for the water where the transport has services.
+  virtual std::unique_ptr<MessageOutput> output(std::span<const Topic> topics,
+                                                const scene::Water& water) = 0;
 
   // Takes poses of the bodies of `inputs`, and the clock.
   virtual std::unique_ptr<InputSource> source(bool takes_clock, Inputs& inputs) = 0;
@@ -30,5 +34,9 @@ class Transport {
 // published, it waits for them if `is_patient`; else they miss the oldest. Throws OptionError, also
 // where it is not built.
 std::unique_ptr<Transport> open_dds(bool is_patient);
+
+// Gazebo's (apps/gazebo), as its environment variables say. `poses` is the topic of bodies' poses;
+// empty: /model/FRAME/pose. Throws OptionError where it is not built.
+std::unique_ptr<Transport> open_gazebo(const std::string& poses);
 
 }  // namespace swell::apps
