@@ -1,12 +1,28 @@
 #include "math/archive.h"
 
+#include <algorithm>
 #include <istream>
 #include <ostream>
+
+#include "math/stop.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
 namespace swell {
+namespace {
+
+// Calls piece(begin, count) for each megabyte.
+template <class Piece>
+void for_each_piece(std::size_t size, const Piece& piece) {
+  constexpr std::size_t kMost = std::size_t{1} << 20;
+  for (std::size_t at = 0; at < size; at += kMost) {
+    check_stop();
+    piece(at, std::min(kMost, size - at));
+  }
+}
+
+}  // namespace
 
 struct StreamHash::State {
   XXH3_state_t xxh3;
@@ -25,8 +41,11 @@ ValueHash StreamHash::hash() const {
 }
 
 void WrittenBytes::add(const void* bytes, std::size_t size) {
-  hash_.add(bytes, size);
-  to_.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  const char* const begin = static_cast<const char*>(bytes);
+  for_each_piece(size, [&](std::size_t at, std::size_t count) {
+    hash_.add(begin + at, count);
+    to_.write(begin + at, static_cast<std::streamsize>(count));
+  });
 }
 
 void WrittenBytes::finish() {
@@ -35,10 +54,14 @@ void WrittenBytes::finish() {
 }
 
 void ReadBytes::add(void* bytes, std::size_t size) {
-  if (size > left_ || !from_.read(static_cast<char*>(bytes), static_cast<std::streamsize>(size)))
-    throw ArchiveError("too few bytes");
+  if (size > left_) throw ArchiveError("too few bytes");
   left_ -= size;
-  hash_.add(bytes, size);
+  char* const begin = static_cast<char*>(bytes);
+  for_each_piece(size, [&](std::size_t at, std::size_t count) {
+    if (!from_.read(begin + at, static_cast<std::streamsize>(count)))
+      throw ArchiveError("too few bytes");
+    hash_.add(begin + at, count);
+  });
 }
 
 void ReadBytes::add_count(std::uint64_t& count, std::size_t element_size) {

@@ -48,7 +48,8 @@ template <class T>
 inline constexpr bool kHasFields<std::optional<T>> = kHasFields<T>;
 
 // Writes or reads what a value consists of, as `Bytes` does with bytes and with the number of an
-// array's elements.
+// array's elements. Writing only reads the value, so that others may at the same time. Asks
+// check_stop() every megabyte.
 template <class Bytes>
 class Archive {
  public:
@@ -60,7 +61,7 @@ class Archive {
     if constexpr (std::is_same_v<T, bool>) {
       std::uint8_t byte = value ? 1 : 0;  // changed bytes may be no bool
       bytes_.add(&byte, 1);
-      value = byte != 0;
+      if (value != (byte != 0)) value = !value;  // who writes changes nothing
     } else if constexpr (kIsPlainBytes<T>) {
       bytes_.add(&value, sizeof value);
     } else {

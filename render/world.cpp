@@ -318,8 +318,8 @@ std::unique_ptr<WorldState> make_state(scene::Scene scene, const WorldMaking& ma
   MakingReport report(scene, making);
   auto state = std::make_unique<WorldState>(WorldState{.scene = std::move(scene)});
   const scene::Scene& now = state->scene;
-  const PartCache cache(making.cache_folder, now);
-  PartMaker parts(now, making.like, cache, report, state->parts);
+  state->cache = std::make_shared<PartCache>(making.cache_folder, now);
+  PartMaker parts(now, making.like, *state->cache, report, state->parts);
   Workers workers(threads);
   state->objects = build_object_meshes(state->scene, parts);
   workers.run_both(
@@ -342,7 +342,7 @@ std::unique_ptr<WorldState> make_state(scene::Scene scene, const WorldMaking& ma
   state->object_classes = object_classes(now);
   state->tree_class = class_of(class_names(now), kTreeClassName).value_or(kObjectClass);
   state->disturbances = scene::all_disturbances(now);
-  cache.trim();
+  state->cache->trim();
   report.finish();
   return state;
 }
@@ -357,7 +357,9 @@ World::World(scene::Scene scene, const World& like, int threads)
     : World(std::move(scene), std::array{&like}, threads) {}
 World::World(scene::Scene scene, std::span<const World* const> like, int threads)
     : World(std::move(scene), WorldMaking{.threads = threads, .like = like}) {}
-World::~World() = default;
+World::~World() {
+  if (state_) state_->cache->wait();
+}
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 const scene::Scene& World::scene() const { return state().scene; }

@@ -13,9 +13,11 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "math/stop.h"
 #include "scene/terrain.h"
 
 namespace swell::render {
@@ -105,17 +107,46 @@ PartCache::PartCache(fs::path folder, const scene::Scene& scene) {
   files_and_program_ = ValueBytes().add(program).add(hash_of_files(scene)).hash();
 }
 
-void PartCache::trim(std::uintmax_t most) const {
+PartCache::~PartCache() {
+  stop_ = true;
+  wait();
+}
+
+void PartCache::wait() {
+  const std::scoped_lock lock(mutex_);
+  if (last_.valid()) last_.wait();
+}
+
+void PartCache::in_background(std::function<void()> work) {
+  const std::scoped_lock lock(mutex_);
+  auto in_order = [this, before = std::move(last_), work = std::move(work)] {
+    if (before.valid()) before.wait();
+    const ScopedStop stoppable(&stop_);
+    check_stop();
+    work();
+  };
+  try {
+    last_ = std::async(std::launch::async, std::move(in_order));
+  } catch (const std::system_error&) {
+    // No thread is to be had: nothing is kept.
+  }
+}
+
+void PartCache::trim(std::uintmax_t most) {
+  if (folder_.empty()) return;
+  in_background([this, most] { trim_folder(folder_, most); });
+}
+
+void PartCache::trim_folder(const fs::path& folder, std::uintmax_t most) {
   struct Kept {
     fs::file_time_type used;
     std::uintmax_t bytes;
     fs::path path;
   };
-  if (folder_.empty()) return;
   std::vector<Kept> all;
   std::uintmax_t bytes = 0;
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().extension() != ".part") continue;
     all.push_back({entry.last_write_time(error), file_size(entry.path()), entry.path()});
     bytes += all.back().bytes;

@@ -6,7 +6,7 @@
 namespace swell::render {
 
 PartMaker::PartMaker(const scene::Scene& scene, std::span<const World* const> like,
-                     const PartCache& cache, MakingReport& report, KeptParts& kept)
+                     PartCache& cache, MakingReport& report, KeptParts& kept)
     : scene_(scene), like_(like), cache_(cache), report_(report), kept_(kept) {}
 
 ValueBytes PartMaker::of(std::initializer_list<std::string_view> keys) const {

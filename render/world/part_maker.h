@@ -31,7 +31,7 @@ class PartMaker {
  public:
   // A maker of parts for a scene, which takes those that worlds of `like` or the cache have; kept:
   // of the world that is made. All outlive it. `report` is told of each part.
-  PartMaker(const scene::Scene& scene, std::span<const World* const> like, const PartCache& cache,
+  PartMaker(const scene::Scene& scene, std::span<const World* const> like, PartCache& cache,
             MakingReport& report, KeptParts& kept);
 
   // What the scene says under these keys (scene/file/key_values.h).
@@ -53,14 +53,14 @@ class PartMaker {
     if constexpr (kHasFields<Made>) {
       if (std::optional<Made> read = cache_.find<Made>(key)) {
         report_.read(name, start);
-        return typed<Made>(keep(key, shared(*std::move(read))));
+        return typed<Made>(keep(key, part_of(std::make_shared<Made>(*std::move(read)))));
       }
     }
-    Made made = make();
+    const auto made = std::make_shared<Made>(make());
     report_.made(name, start);
     if constexpr (kHasFields<Made>)
       if (MakingReport::Clock::now() - start >= kWorthKeeping) cache_.keep(key, made);
-    return typed<Made>(keep(key, shared(std::move(made))));
+    return typed<Made>(keep(key, part_of(made)));
   }
 
  private:
@@ -81,12 +81,12 @@ class PartMaker {
     return std::static_pointer_cast<const typename Part<Made>::Type>(part);
   }
   template <class T>
-  static std::shared_ptr<const void> shared(T made) {
-    return std::make_shared<const T>(std::move(made));
+  static std::shared_ptr<const void> part_of(std::shared_ptr<T> made) {
+    return made;
   }
   template <class T>
-  static std::shared_ptr<const void> shared(std::optional<T> made) {
-    return made ? shared(*std::move(made)) : nullptr;
+  static std::shared_ptr<const void> part_of(std::shared_ptr<std::optional<T>> made) {
+    return *made ? std::shared_ptr<const void>(made, &**made) : nullptr;
   }
 
   const std::shared_ptr<const void>* find(const ValueHash& key);
@@ -94,7 +94,7 @@ class PartMaker {
 
   const scene::Scene& scene_;
   std::span<const World* const> like_;
-  const PartCache& cache_;
+  PartCache& cache_;
   MakingReport& report_;
   KeptParts& kept_;
   std::mutex mutex_;  // of kept_

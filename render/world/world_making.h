@@ -22,7 +22,8 @@ struct WorldMaking {
   // Worlds to share parts with that are made of the same.
   std::span<const World* const> like = {};
   // Where parts are kept for other processes (render/world/part_cache.h); empty: nowhere. The bits
-  // are the same.
+  // are the same. A thread writes there beside those that draw; the world's destructor waits for
+  // it.
   std::filesystem::path cache_folder = {};
   // Any thread sets it to end the making, with Stopped (math/stop.h), within 50 ms.
   const std::atomic<bool>* stop = nullptr;

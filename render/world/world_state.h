@@ -53,6 +53,7 @@ struct Forest;
 struct LandRays;
 struct LandShadow;
 struct NearShoreMap;
+class PartCache;
 struct SkyMaps;
 struct SunTexture;
 struct TerrainMaps;
@@ -94,7 +95,8 @@ struct WorldState {
   std::shared_ptr<const NearShoreMap> near_shore = {};  // there is one if there is shelter
   std::shared_ptr<const lod::ReliefBounds> relief_bounds = {};  // of the terrain with its apron
   Textures textures = {};
-  KeptParts parts = {};  // all of these, as other worlds look for them
+  KeptParts parts = {};                   // all of these, as other worlds look for them
+  std::shared_ptr<PartCache> cache = {};  // that keeps them
 
   // What is on the sea.
   ObjectMeshes objects = {};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "render/shot.h"
+#include "render/world/world_state.h"
 #include "render/world_view.h"
 #include "scratch_folder.h"
 #include "texture/image/image_io.h"
@@ -60,7 +61,9 @@ TEST(PartCache, GivesAnotherWorldTheSamePicture) {
   for (const std::string name : {"beach", "everything_rays"}) {
     const ScratchFolder folder;
     const scene::Scene scene = load_shipped(name);
-    const Made none(scene, {}), first(scene, folder.path()), second(scene, folder.path());
+    const Made none(scene, {}), first(scene, folder.path());
+    first.world.state().cache->wait();
+    const Made second(scene, folder.path());
     int read = 0;
     for (const std::string part :
          {"air", "sky", "land", "shelter", "land shadow", "forest", "clouds"}) {
@@ -97,6 +100,7 @@ TEST(PartCache, MakesAnewWhatItCannotRead) {
   const Made again(scene, folder.path());
   EXPECT_FALSE(again.was_read("land"));
   EXPECT_EQ(again.hash(), hash);
+  again.world.state().cache->wait();
   EXPECT_TRUE(Made(scene, folder.path()).was_read("land"));
 }
 
@@ -135,13 +139,14 @@ TEST(PartCache, LooksIntoTheFilesOfAScene) {
 TEST(PartCache, HoldsNoMoreThanItMayAndKeepsWhatWasUsedLast) {
   const ScratchFolder folder;
   const scene::Scene scene = load_shipped("open_ocean");
-  const PartCache cache(folder.path(), scene);
+  PartCache cache(folder.path(), scene);
   const auto key = [](std::uint64_t n) { return ValueHash{n, n}; };
   struct Numbers {
     std::vector<std::uint64_t> values = std::vector<std::uint64_t>(1000, 7);
     auto fields() { return std::tie(values); }
-  } numbers;
-  for (std::uint64_t n = 0; n < 10; ++n) cache.keep(key(n), numbers);
+  };
+  for (std::uint64_t n = 0; n < 10; ++n) cache.keep(key(n), std::make_shared<Numbers>());
+  cache.wait();
   ASSERT_EQ(folder.names().size(), 10u);
   const auto now = fs::file_time_type::clock::now();
   for (const fs::path& file : files_of(folder))
@@ -149,6 +154,7 @@ TEST(PartCache, HoldsNoMoreThanItMayAndKeepsWhatWasUsedLast) {
   for (const std::uint64_t n : {3, 8}) EXPECT_TRUE(cache.find<Numbers>(key(n)));
   folder.write("mine.txt", "not the cache's");
   cache.trim(20'000);
+  cache.wait();
   EXPECT_EQ(folder.names().size(), 3u);
   for (std::uint64_t n = 0; n < 10; ++n)
     EXPECT_EQ(cache.find<Numbers>(key(n)).has_value(), n == 3 || n == 8) << n;
