@@ -190,7 +190,7 @@ DrawnLand draw_land(const terrain::HeightGrid& land, bool bicubic, Workers& work
 // `drawn` gives the DrawnLand of a terrain.
 template <class Drawn>
 LandParts build_land_parts(const scene::Scene& scene, Workers& workers, Drawn&& drawn) {
-  std::optional<scene::Ground> ground = scene::build_ground(scene);
+  std::optional<scene::Ground> ground = scene::build_ground(scene, workers);
   LandParts parts;
   parts.terrain = std::move(ground->terrain);
   parts.lakes = std::move(ground->lakes);

@@ -41,10 +41,10 @@ std::optional<terrain::HeightGrid> build_terrain(const Scene& scene) {
   });
 }
 
-std::optional<Ground> build_ground(const Scene& scene) {
+std::optional<Ground> build_ground(const Scene& scene, Workers& workers) {
   if (!scene.terrain) return std::nullopt;
   return built(scene, [&] {
-    Ground ground{terrain::build_terrain(*scene.terrain), {}};
+    Ground ground{terrain::build_terrain(*scene.terrain, workers), {}};
     if (has_inland_water(scene)) {
       const ocean::RiverNetwork network(scene.rivers, scene.lakes);
       ground.lakes = ocean::fill_lakes(scene.lakes, ground.terrain);

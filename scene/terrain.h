@@ -21,7 +21,7 @@ struct Ground {
   terrain::HeightGrid terrain;
   ocean::LakeFill lakes;
 };
-std::optional<Ground> build_ground(const Scene& scene);
+std::optional<Ground> build_ground(const Scene& scene, Workers& workers);
 
 // The scene's rivers and lakes on its ground, which part before what stands in them
 // (scene/obstacles.h): 0.1 to 1 s of one core. Nothing for scenes without any.

@@ -25,7 +25,7 @@ Water::Water(const Scene& scene, int threads) {
   parts_.area = scene.area;
   parts_.disturbances = all_disturbances(scene);
   Workers workers(threads);
-  if (std::optional<Ground> ground = build_ground(scene)) {
+  if (std::optional<Ground> ground = build_ground(scene, workers)) {
     parts_.terrain = std::make_shared<const terrain::HeightGrid>(std::move(ground->terrain));
     parts_.inland = shared(build_inland_water(scene, ground->lakes, *terrain(), workers));
   }

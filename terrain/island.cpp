@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "math/elementary.h"
 #include "math/random.h"
 #include "math/smoothstep.h"
-#include "math/stop.h"
 
 namespace swell::terrain {
 namespace {
@@ -36,14 +36,23 @@ Island::Profile Island::make_profile(const TerrainDescription& description) {
   return p;
 }
 
-// Distance from the shore in metres, inland positive: that of a circle, seen through two layers
+// Distances from the shore in metres, inland positive: those of a circle, seen through two layers
 // of noise_. The first bends the plane (headlands and bays), the second frays the coast.
-double Island::shore_distance(glm::dvec2 q) const {
-  const double bend_x = noise_.fractal2(1.1 * q.x + 17.3, 1.1 * q.y + 41.9, 2, 0.45);
-  const double bend_y = noise_.fractal2(1.1 * q.x + 71.1, 1.1 * q.y + 93.7, 2, 0.45);
-  const glm::dvec2 bent = q + kWarp * glm::dvec2(bend_x, bend_y);
-  const double bays = noise_.fractal2(2.1 * q.x + 131.5, 2.1 * q.y + 7.7, 3, 0.35);
-  return profile_.radius * (1.0 - glm::length(bent) + kBays * bays);
+std::vector<double> Island::shore_distances(std::span<const double> x, double y) const {
+  std::vector<double> at(x.size()), bend_x(x.size()), bend_y(x.size()), bays(x.size());
+  const auto find = [&](double scale, double shift_x, double shift_y, int octaves,
+                        double persistence, std::span<double> sums) {
+    for (std::size_t n = 0; n < x.size(); ++n) at[n] = scale * x[n] + shift_x;
+    noise_.fractal2_row(at, scale * y + shift_y, octaves, persistence, sums);
+  };
+  find(1.1, 17.3, 41.9, 2, 0.45, bend_x);
+  find(1.1, 71.1, 93.7, 2, 0.45, bend_y);
+  find(2.1, 131.5, 7.7, 3, 0.35, bays);
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    const glm::dvec2 bent = glm::dvec2(x[n], y) + kWarp * glm::dvec2(bend_x[n], bend_y[n]);
+    at[n] = profile_.radius * (1.0 - glm::length(bent) + kBays * bays[n]);
+  }
+  return at;
 }
 
 // Height above the beach at `inland` metres from the shore: a broken dome with ridges.
@@ -89,28 +98,40 @@ double Island::sea_floor_height(glm::dvec2 q, double offshore) const {
 Island::Island(const TerrainDescription& description, std::uint64_t seed)
     : profile_(make_profile(description)), noise_(seed) {}
 
-double Island::height_m(glm::dvec2 from_middle_m) const {
-  if (glm::length(from_middle_m) >= profile_.half_size) return -profile_.floor_depth;
-  const glm::dvec2 q = from_middle_m / profile_.radius;
-  const double inland = shore_distance(q);
-  return inland >= 0.0 ? land_height(q, inland) : sea_floor_height(q, -inland);
+std::vector<float> Island::row_m(std::span<const double> x_m, double y_m) const {
+  std::vector<float> heights(x_m.size(), static_cast<float>(-profile_.floor_depth));
+  std::vector<std::size_t> places;
+  std::vector<double> x;
+  for (std::size_t n = 0; n < x_m.size(); ++n) {
+    if (glm::length(glm::dvec2(x_m[n], y_m)) >= profile_.half_size) continue;
+    places.push_back(n);
+    x.push_back(x_m[n] / profile_.radius);
+  }
+  const double y = y_m / profile_.radius;
+  const std::vector<double> inland = shore_distances(x, y);
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    const glm::dvec2 q(x[n], y);
+    heights[places[n]] = static_cast<float>(inland[n] >= 0.0 ? land_height(q, inland[n])
+                                                             : sea_floor_height(q, -inland[n]));
+  }
+  return heights;
 }
 
 double island_size_m(const TerrainDescription& description) {
   return 2.0 * Island(description, description.seed).half_size_m();
 }
 
-HeightGrid build_island(const TerrainDescription& description) {
+HeightGrid build_island(const TerrainDescription& description, Workers& workers) {
   const Island shape(description, description.seed);
   const double half_m = shape.half_size_m(), spacing_m = 2.0 * half_m / (kIslandSamples - 1);
   HeightGrid island{{description.centre_m - half_m, spacing_m, kIslandSamples, kIslandSamples}};
-  island.height_m.reserve(island.grid.size());
-  for (int j = 0; j < kIslandSamples; ++j) {
-    check_stop();
-    for (int i = 0; i < kIslandSamples; ++i)
-      island.height_m.push_back(
-          static_cast<float>(shape.height_m(glm::dvec2(i, j) * spacing_m - half_m)));
-  }
+  island.height_m.resize(island.grid.size());
+  std::vector<double> from_middle_m;
+  for (int i = 0; i < kIslandSamples; ++i) from_middle_m.push_back(i * spacing_m - half_m);
+  workers.for_each(kIslandSamples, [&](std::size_t j, int) {
+    std::ranges::copy(shape.row_m(from_middle_m, from_middle_m[j]),
+                      &island.height_m[j * kIslandSamples]);
+  });
   return island;
 }
 
@@ -153,7 +174,7 @@ std::vector<PlacedIsland> place_islands(const TerrainDescription& description) {
 
 }  // namespace
 
-HeightGrid build_archipelago(const TerrainDescription& description) {
+HeightGrid build_archipelago(const TerrainDescription& description, Workers& workers) {
   constexpr int kLast = kArchipelagoSamples - 1;
   HeightGrid all{{description.centre_m - 0.5 * description.archipelago_size_m,
                   description.archipelago_size_m / kLast, kArchipelagoSamples,
@@ -164,15 +185,19 @@ HeightGrid build_archipelago(const TerrainDescription& description) {
     const double reach = island.shape.half_size_m() / all.grid.spacing_m;
     const glm::ivec2 first(glm::max(glm::ceil(middle - reach), 0.0));
     const glm::ivec2 last(glm::min(glm::floor(middle + reach), static_cast<double>(kLast)));
-    for (int j = first.y; j <= last.y; ++j) {
-      check_stop();
-      for (int i = first.x; i <= last.x; ++i) {
-        float& height = all.height_m[static_cast<std::size_t>(j) * kArchipelagoSamples +
-                                     static_cast<std::size_t>(i)];
-        const double one = island.shape.height_m(all.grid.point(i, j) - island.middle_world);
-        height = std::max(height, static_cast<float>(one));
+    const auto from_middle_m = [&](int i, int j) {
+      return all.grid.point(i, j) - island.middle_world;
+    };
+    std::vector<double> x_m;
+    for (int i = first.x; i <= last.x; ++i) x_m.push_back(from_middle_m(i, 0).x);
+    workers.for_each(static_cast<std::size_t>(last.y - first.y + 1), [&](std::size_t n, int) {
+      const int j = first.y + static_cast<int>(n);
+      float* height_m = &all.height_m[all.grid.index(first.x, j)];
+      for (const float one_m : island.shape.row_m(x_m, from_middle_m(0, j).y)) {
+        *height_m = std::max(*height_m, one_m);
+        ++height_m;
       }
-    }
+    });
   }
   return all;
 }

@@ -1,6 +1,9 @@
 // Islands from noise: hills, a gentle beach, a shallow lagoon, a reef, the deep floor.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "terrain/terrain.h"
 #include "texture/perlin.h"
 
@@ -15,8 +18,9 @@ class Island {
 
   // Half the side of a square around it, at whose border and beyond there is only floor.
   double half_size_m() const { return profile_.half_size; }
-  // At a place from its middle [m]; exactly -floor_depth_m where there is only floor.
-  double height_m(glm::dvec2 from_middle_m) const;
+  // Heights at places x, y from its middle, all in metres; exactly -floor_depth_m where there is
+  // only floor.
+  std::vector<float> row_m(std::span<const double> x_m, double y_m) const;
 
  private:
   // Its measures, all in metres. Widths are counted from the shore line.
@@ -34,7 +38,8 @@ class Island {
   };
 
   static Profile make_profile(const TerrainDescription& description);
-  double shore_distance(glm::dvec2 q) const;
+  // Here and below places are in radii.
+  std::vector<double> shore_distances(std::span<const double> x, double y) const;
   double hills(glm::dvec2 q, double inland) const;
   double land_height(glm::dvec2 q, double inland) const;
   double sea_floor_height(glm::dvec2 q, double offshore) const;
@@ -48,13 +53,13 @@ double island_size_m(const TerrainDescription& description);
 
 // The terrain's heights from island_radius_m, island_height_m, floor_depth_m and seed. The border
 // is exactly -floor_depth_m. lowest_m and highest_m are not set.
-HeightGrid build_island(const TerrainDescription& description);
+HeightGrid build_island(const TerrainDescription& description, Workers& workers);
 
 inline constexpr int kArchipelagoSamples = 2049;
 
 // Builds the heights of `islands` islands likewise, on a square of archipelago_size_m: the largest
 // is as described, the others down to a fifth of it. They keep a lagoon's width apart; those that
 // find no room are left out.
-HeightGrid build_archipelago(const TerrainDescription& description);
+HeightGrid build_archipelago(const TerrainDescription& description, Workers& workers);
 
 }  // namespace swell::terrain

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "math/elementary.h"
-#include "math/stop.h"
 #include "terrain/apron.h"
 #include "terrain/boundary.h"
 #include "terrain/described_samples.h"
@@ -78,24 +77,24 @@ double dune_height(const texture::PerlinNoise& noise, glm::dvec2 p_dunes, double
   return kBeachTop_m + kDunes_m * rise * (1.0 + 0.2 * rise * rolling);
 }
 
-HeightGrid terrain_from_coast(const TerrainDescription& description) {
+HeightGrid terrain_from_coast(const TerrainDescription& description, Workers& workers) {
   const texture::PerlinNoise noise(description.seed);
   const double spacing_m = description.beach_size_m / (kBeachSamples - 1);
   HeightGrid terrain{{description.centre_m - 0.5 * description.beach_size_m, spacing_m,
                       kBeachSamples, kBeachSamples}};
-  terrain.height_m.reserve(terrain.grid.size());
+  terrain.height_m.resize(terrain.grid.size());
   const double dune_length_m = std::max(45.0, 8.0 * spacing_m);  // 8 samples and more
-  for (int j = 0; j < kBeachSamples; ++j) {
-    check_stop();
+  workers.for_each(kBeachSamples, [&](std::size_t row, int) {
+    const int j = static_cast<int>(row);
     for (int i = 0; i < kBeachSamples; ++i) {
       const double plane_m = -description.beach_slope *
                              distance_to_coast(description.coast_m, terrain.grid.point(i, j));
       const glm::dvec2 p_dunes = spacing_m * glm::dvec2(i, j) / dune_length_m;
       const double height = plane_m > kBeachTop_m ? dune_height(noise, p_dunes, plane_m)
                                                   : std::max(plane_m, -description.floor_depth_m);
-      terrain.height_m.push_back(static_cast<float>(height));
+      terrain.height_m[terrain.grid.index(i, j)] = static_cast<float>(height);
     }
-  }
+  });
   return terrain;
 }
 
@@ -167,11 +166,16 @@ int samples_at_most(const TerrainDescription& description) {
 }
 
 HeightGrid build_terrain(const TerrainDescription& description) {
+  Workers one(1);
+  return build_terrain(description, one);
+}
+
+HeightGrid build_terrain(const TerrainDescription& description, Workers& workers) {
   check_description(description);
-  HeightGrid terrain = !description.coast_m.empty()        ? terrain_from_coast(description)
+  HeightGrid terrain = !description.coast_m.empty() ? terrain_from_coast(description, workers)
                        : !description.height_image.empty() ? terrain_from_image(description)
-                       : description.islands > 1           ? build_archipelago(description)
-                                                           : build_island(description);
+                       : description.islands > 1           ? build_archipelago(description, workers)
+                                                           : build_island(description, workers);
   finish(terrain);
   if (!description.ground_from_boundary) return terrain;
   terrain = ground_of_boundary(read_boundary(description.boundary, terrain), terrain);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "math/parallel.h"
 #include "terrain/height_grid.h"
 
 namespace swell::terrain {
@@ -86,8 +87,9 @@ std::optional<double> described_size_m(const TerrainDescription& description);
 // A square of heights with an apron, lowest_m and highest_m set: 1025 samples a side from noise
 // (2049 with several islands), 513 from a coast line, the image's side from images, where one pixel
 // makes a flat square of 2 x 2; of a finer boundary, whose heights they are, as many as that has.
-// Rows go northwards. Single-threaded, the same bits everywhere. Throws TerrainError (bad values)
-// or texture::FileError (bad image).
+// Rows go northwards. The same bits with any threads; without workers on one. Throws TerrainError
+// (bad values) or texture::FileError (bad image).
+HeightGrid build_terrain(const TerrainDescription& description, Workers& workers);
 HeightGrid build_terrain(const TerrainDescription& description);
 
 }  // namespace swell::terrain

@@ -196,12 +196,13 @@ TEST(SceneTerrain, IsRefusedWithTheTextOfTheTerrainsFault) {
 }
 
 TEST(SceneTerrain, FaultsThatShowWhenItIsBuiltHaveTheirPlace) {
-  const auto fault_of = [](const std::string& text, std::vector<std::string> settings = {}) {
+  Workers workers(2);
+  const auto fault_of = [&](const std::string& text, std::vector<std::string> settings = {}) {
     const std::string start =
         "[terrain]\nisland_radius_m = 100\n"
         "[[lake]]\nlevel_m = -100\noutline_m = [[0, 0], [9, 0], [0, 9]]\n[[lake]]\n";
     const Scene scene = parse_scene(start + text, "test.toml", settings);
-    return scene_error_of([&] { build_ground(scene); });
+    return scene_error_of([&] { build_ground(scene, workers); });
   };
   const std::string dry =
       "lake[1].position_m, got [9000, 0], which is dry, allowed a place lower than 0 m";
@@ -217,7 +218,7 @@ TEST(SceneTerrain, FaultsThatShowWhenItIsBuiltHaveTheirPlace) {
             "test.toml:10: column 10: river[0].path_m, got [225, 0], allowed points on the "
             "terrain's square");
   const Scene json = parse_scene(R"({"terrain.seed": 3, "lake": [{"level_m": -30}]})", "a.json");
-  EXPECT_EQ(scene_error_of([&] { build_ground(json); }),
+  EXPECT_EQ(scene_error_of([&] { build_ground(json, workers); }),
             "a.json: lake[0].position_m, got [0, 0], which is dry, allowed a place lower than "
             "-30 m");
 }
