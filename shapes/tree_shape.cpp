@@ -1,8 +1,10 @@
 #include "shapes/tree_shape.h"
 
 #include <algorithm>
-#include <bitset>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 
 #include "math/elementary.h"
 #include "math/random.h"
@@ -141,18 +143,22 @@ class CoverGrid {
     const auto [y0, y1] = std::minmax({q[0].y, q[1].y, q[2].y});
     const auto limit = [](float v) { return std::clamp(static_cast<int>(v), 0, kSide - 1); };
     const float area = cross(q[0], q[1], q[2]);
-    for (int y = limit(y0); y <= limit(y1); ++y)
-      for (int x = limit(x0); x <= limit(x1); ++x) {
+    const int first = limit(x0), last = limit(x1);
+    for (int y = limit(y0); y <= limit(y1); ++y) {
+      std::uint8_t* const row = covered_.data() + y * kSide;
+      // Without a branch, so that compilers take several points at once.
+      for (int x = first; x <= last; ++x) {
         const glm::vec2 at(x, y);
-        const bool inside = cross(q[0], q[1], at) * area >= 0.0f &&
-                            cross(q[1], q[2], at) * area >= 0.0f &&
-                            cross(q[2], q[0], at) * area >= 0.0f;
-        if (inside) covered_.set(static_cast<std::size_t>(y) * kSide + x);
+        row[x] |= static_cast<std::uint8_t>((cross(q[0], q[1], at) * area >= 0.0f) &
+                                            (cross(q[1], q[2], at) * area >= 0.0f) &
+                                            (cross(q[2], q[0], at) * area >= 0.0f));
       }
+    }
   }
 
   float of_box() const {
-    return static_cast<float>(covered_.count()) / (2.0f * kPointsPerUnit.x * kPointsPerUnit.y);
+    return static_cast<float>(std::accumulate(covered_.begin(), covered_.end(), 0)) /
+           (2.0f * kPointsPerUnit.x * kPointsPerUnit.y);
   }
 
  private:
@@ -161,7 +167,7 @@ class CoverGrid {
   static float cross(glm::vec2 a, glm::vec2 b, glm::vec2 c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   }
-  std::bitset<std::size_t{kSide} * kSide> covered_;
+  std::array<std::uint8_t, std::size_t{kSide} * kSide> covered_{};
 };
 
 // The part of the crown's box that leaves cover, seen from the side; the last one grows.
