@@ -19,6 +19,16 @@ constexpr float kLongestShadow = 5.0f;  // of the heights of trees
 constexpr double kHighestSea_m = 1.0;   // that waves and tides reach
 constexpr float kShadeOfCrown = 0.85f;  // part of the sun's light that a crown takes
 
+// Calls body(i) for each i below count, 4096 a task.
+template <class Body>
+void for_pieces(std::size_t count, Workers& workers, const Body& body) {
+  constexpr std::size_t kPerTask = 4096;
+  workers.for_each(count / kPerTask + 1, [&](std::size_t task, int) {
+    const std::size_t end = std::min((task + 1) * kPerTask, count);
+    for (std::size_t i = task * kPerTask; i < end; ++i) body(i);
+  });
+}
+
 // An ellipse with a soft rim: half axes `along` a unit direction and `across` it.
 struct Disc {
   glm::vec2 middle_m{0.0f}, direction{1.0f, 0.0f};
@@ -38,10 +48,7 @@ class DiscMap {
   template <class DiscOf>
   void add(std::size_t count, Workers& workers, const DiscOf& disc) {
     std::vector<Disc> discs(count);
-    workers.for_each(count / kPerTask + 1, [&](std::size_t task, int) {
-      const std::size_t end = std::min((task + 1) * kPerTask, count);
-      for (std::size_t i = task * kPerTask; i < end; ++i) discs[i] = disc(i);
-    });
+    for_pieces(count, workers, [&](std::size_t i) { discs[i] = disc(i); });
     workers.for_each(static_cast<std::size_t>(size_ / kBandRows), [&](std::size_t band, int) {
       const int first = static_cast<int>(band) * kBandRows;
       for (const Disc& one : discs) {
@@ -64,7 +71,6 @@ class DiscMap {
 
  private:
   static constexpr int kBandRows = 64;
-  static constexpr std::size_t kPerTask = 4096;
 
   void add_rows(const Disc& disc, int first_row, int last_row) {
     const glm::vec2 middle = disc.middle_m * texels_per_m_, direction = disc.direction;
@@ -121,12 +127,8 @@ Disc shadow_of(const Tree& tree, const terrain::HeightGrid& land, glm::vec3 to_l
 }
 
 void pack(const DiscMap& discs, bool is_left, texture::PackedMap1& map) {
-  std::vector<float> values;
-  values.reserve(discs.left().size());
-  for (const float left : discs.left()) {
-    if (values.size() % static_cast<std::size_t>(discs.size()) == 0) check_stop();
-    values.push_back(2.0f * (is_left ? left : 1.0f - left) - 1.0f);
-  }
+  std::vector<float> values(discs.left());
+  for (float& value : values) value = 2.0f * (is_left ? value : 1.0f - value) - 1.0f;
   texture::pack_map1(discs.size(), values, map);
 }
 
@@ -138,19 +140,25 @@ float crowding_at(const Tree& tree, const DiscMap& cover) {
 }
 
 // Where the sea may be in the shade of trees.
-void find_sea_shade(const DiscMap& shade, const terrain::HeightGrid& land, Forest& forest) {
+void find_sea_shade(const DiscMap& shade, const terrain::HeightGrid& land, Workers& workers,
+                    Forest& forest) {
   const double size_m = land.grid.size_m(), step_m = size_m / shade.size();
-  glm::vec2 low(static_cast<float>(size_m)), high(0.0f);
-  for (int j = 0; j < shade.size(); ++j) {
-    check_stop();
-    for (int i = 0; i < shade.size(); ++i) {
-      const std::size_t at = static_cast<std::size_t>(j) * shade.size() + i;
-      if (shade.left()[at] > 0.98f) continue;
+  struct Box {
+    glm::vec2 low, high;
+  };
+  const auto rows = static_cast<std::size_t>(shade.size());
+  std::vector<Box> boxes(rows, {glm::vec2(static_cast<float>(size_m)), glm::vec2(0.0f)});
+  workers.for_each(rows, [&](std::size_t j, int) {
+    auto& [low, high] = boxes[j];
+    for (std::size_t i = 0; i < rows; ++i) {
+      if (shade.left()[j * rows + i] > 0.98f) continue;
       const glm::dvec2 p = step_m * glm::dvec2(i, j);
       if (terrain::height_at(land, land.grid.min_world + p) > kHighestSea_m) continue;
       low = glm::min(low, glm::vec2(p)), high = glm::max(high, glm::vec2(p));
     }
-  }
+  });
+  auto [low, high] = boxes[0];
+  for (const Box& row : boxes) low = glm::min(low, row.low), high = glm::max(high, row.high);
   // Coarser levels of the map spread it a little.
   forest.sea_shade_low = low - static_cast<float>(8.0 * step_m);
   forest.sea_shade_high = high + static_cast<float>(8.0 * step_m);
@@ -184,7 +192,7 @@ void add_canopy(const terrain::HeightGrid& land, glm::vec3 to_light, Workers& wo
   });
   shade.add(trees.size(), workers,
             [&](std::size_t i) { return shadow_of(trees[i], land, to_light); });
-  find_sea_shade(shade, land, forest);
+  find_sea_shade(shade, land, workers, forest);
   glm::vec3 albedo(0.0f);
   float area = 0.0f, height = 0.0f;
   for (const Tree& tree : trees) {
@@ -193,15 +201,14 @@ void add_canopy(const terrain::HeightGrid& land, glm::vec3 to_light, Workers& wo
     area += its;
     height += its * tree.height_m;
   }
-  for (const Tree& tree : trees) {
-    check_stop();
-    forest.crowding.push_back(crowding_at(tree, cover));
-  }
+  forest.crowding.resize(trees.size());
+  for_pieces(trees.size(), workers,
+             [&](std::size_t i) { forest.crowding[i] = crowding_at(trees[i], cover); });
   constexpr float kBetweenCrowns = 0.9f;  // of a crown's light, with the shade around it
   forest.canopy_albedo = kBetweenCrowns * albedo / area;
   forest.mean_height_m = height / area;
-  pack(cover, false, forest.cover);
-  pack(shade, true, forest.sun_left);
+  workers.run_both([&] { pack(cover, false, forest.cover); },
+                   [&] { pack(shade, true, forest.sun_left); });
 }
 
 // Metres from the edge of the nearest river, below 0 in it and in lakes with an outline.
