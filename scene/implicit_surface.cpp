@@ -36,17 +36,24 @@ struct Cell {
   }
 };
 
-// The cells, side^3 of a cell, that the part may reach into.
-template <class Visit>
-void for_cells(const ImplicitPart& part, const Cell& cell, int side, const Visit& visit) {
+// The cells, side^3 of a cell, that are wanted and that the part may reach into.
+template <class Wanted, class Visit>
+void for_cells(const ImplicitPart& part, const Cell& cell, int side, const Wanted& wanted,
+               const Visit& visit) {
   const glm::dvec3 half = cell.half / static_cast<double>(side);
   for (int k = 0; k < side; ++k)
     for (int j = 0; j < side; ++j)
       for (int i = 0; i < side; ++i) {
         const glm::dvec3 at = glm::dvec3(2 * i + 1 - side, 2 * j + 1 - side, 2 * k + 1 - side);
         const Cell inner{cell.middle + at * half, half};
-        if (may_hold(part, inner.middle, inner.spans())) visit(inner);
+        if (wanted(inner) && may_hold(part, inner.middle, inner.spans())) visit(inner);
       }
+}
+
+template <class Visit>
+void for_cells(const ImplicitPart& part, const Cell& cell, int side, const Visit& visit) {
+  for_cells(
+      part, cell, side, [](const Cell&) { return true; }, visit);
 }
 
 // Depth first, so that the search ends soon where there is an inside.
@@ -149,7 +156,11 @@ void find_box(ImplicitPart& part) {
   Cell box = first_box(part);
   for (int round = 0; round < kMostRounds; ++round) {
     glm::dvec3 low(kFarthest_m), high(-kFarthest_m);
-    for_cells(part, box, kSide, [&](const Cell& inner) {
+    const auto makes_larger = [&](const Cell& inner) {
+      return glm::any(glm::lessThan(inner.middle - inner.half, low)) ||
+             glm::any(glm::greaterThan(inner.middle + inner.half, high));
+    };
+    for_cells(part, box, kSide, makes_larger, [&](const Cell& inner) {
       low = glm::min(low, inner.middle - inner.half);
       high = glm::max(high, inner.middle + inner.half);
     });
