@@ -334,10 +334,13 @@ std::unique_ptr<WorldState> make_state(scene::Scene scene, const WorldMaking& ma
         add_clouds(parts, workers, *state);
       });
   state->fog_light = std::make_shared<const FogLights>(light_fog(now.air, *state->sky));
-  add_whitecaps(parts, workers, *state);
-  add_near_shore(parts, workers, *state);
-  add_land_shadow(parts, workers, *state);
-  add_forest(parts, workers, *state);
+  workers.run_both(
+      [&] {
+        add_whitecaps(parts, workers, *state);
+        add_near_shore(parts, workers, *state);
+        add_land_shadow(parts, workers, *state);
+      },
+      [&] { add_forest(parts, workers, *state); });
   add_drift(parts, state->scene);
   state->object_classes = object_classes(now);
   state->tree_class = class_of(class_names(now), kTreeClassName).value_or(kObjectClass);
