@@ -29,6 +29,14 @@ run_by_qemu() {
   [ -e $formats/qemu-aarch64 ] || cat /usr/lib/binfmt.d/qemu-aarch64.conf >$formats/register
 }
 
+# packages_of_libraries FILE...: the packages, a,b,c, of the libraries that programs for any processor load. They have the
+# names there that they have here.
+packages_of_libraries() {
+  here=$(dpkg-architecture -qDEB_BUILD_MULTIARCH)
+  readelf -d "$@" 2>/dev/null | sed -n "s/.*(NEEDED).*\[\(.*\)\]/*\/$here\/\1/p" | grep -v -e swell -e ld-linux |
+    sort -u | xargs dpkg-query -S | cut -d: -f1 | sort -u | paste -sd,
+}
+
 # inside COMMAND...: in the root, with its own processes, by which programs find their own folder. This tree is in the
 # place where it is here, if the root has a folder there.
 inside() {

@@ -29,13 +29,11 @@ cmake --build build/$preset --target swell_installed
 rm -f "$folder"/*.deb
 
 if [ "$arm64" ]; then
-  # What the packages depend on a Debian for that processor knows. Its libraries have the names that they have here.
+  # What the packages depend on a Debian for that processor knows.
   # shellcheck source=scripts/debian_root.sh
   . scripts/debian_root.sh
-  here=$(dpkg-architecture -qDEB_BUILD_MULTIARCH)
-  libraries=$(find build/arm64/bin build/arm64/lib build/arm64/python -type f -exec aarch64-linux-gnu-readelf -d {} + 2>/dev/null |
-    sed -n "s/.*(NEEDED).*\[\(.*\)\]/*\/$here\/\1/p" | grep -v -e swell -e ld-linux | sort -u | xargs dpkg-query -S |
-    cut -d: -f1 | sort -u | paste -sd,)
+  # shellcheck disable=SC2046 # a list of names
+  libraries=$(packages_of_libraries $(find build/arm64/bin/swell-* build/arm64/lib build/arm64/python -type f))
   make_root build/arm64-debian bookworm arm64 "cmake,dpkg-dev,file,binutils,$libraries"
   mkdir -p "$root$PWD"
   cpack() { inside sh -c 'cd "$0" && SOURCE_DATE_EPOCH=$1 && export SOURCE_DATE_EPOCH && shift && exec cpack "$@"' "$PWD" \
