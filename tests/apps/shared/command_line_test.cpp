@@ -13,6 +13,7 @@
 
 #include "apps/shared/json.h"
 #include "apps/shared/program_runner.h"
+#include "math/simd_target.h"
 
 namespace swell::apps {
 namespace {
@@ -100,6 +101,7 @@ TEST_F(CommandLine, RenderRefusesBadOptions) {
     Arguments arguments, pieces;
   };
   const std::string size = "--size", allowed = "1x1 to 8192x8192";
+  const std::string plainest(simd_target_name(simd_targets().front()));
   const Case cases[] = {
       {{size, "0x0"}, {"--size", "'0x0'", allowed}},
       {{size, "99999999x1"}, {"'99999999x1'", allowed}},
@@ -107,7 +109,7 @@ TEST_F(CommandLine, RenderRefusesBadOptions) {
       {{"--threads", "0"}, {"--threads", "'0'", "1 to 256"}},
       {{"--threads", "1", "--threads", "2"}, {"--threads, got it 2 times, allowed once"}},
       {{"--threads", "two"}, {"'two'", "1 to 256"}},
-      {{"--simd", "sse4"}, {"--simd", "'sse4'", "avx2"}},
+      {{"--simd", "sse4"}, {"--simd", "'sse4'", plainest}},
       {{"--time", "nan"}, {"--time", "'nan'"}},
       {{"--time", "2e12"}, {"--time"}},
       {{"--frames", "5-3"}, {"--frames", "'5-3'"}},
