@@ -20,7 +20,7 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/scripts/cluster ${CMAKE_SOURCE_DIR}/script
   DESTINATION share/swell COMPONENT swell
   FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE
   PATTERN arguments.sh PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
-foreach(example cpp csharp embed node python ros2 rust wave_provider)
+foreach(example cpp csharp embed gazebo node python ros2 rust wave_provider)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples/${example} DESTINATION share/swell/examples COMPONENT swell-doc
     PATTERN start.sh PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 endforeach()

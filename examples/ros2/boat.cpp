@@ -1,5 +1,5 @@
 // The boat: floats on the water that swell-sim's wave probes tell of, in lock-step.
-//   boat [SECONDS]     20; ends when the clock has shown them
+//   boat [SECONDS]     10; ends when the clock has shown them
 // Each step gives the boat's pose and then the time, waits for the water at the hull's six points
 // at this time, and goes on by the physics of hull.h. Nothing depends on how fast anything runs.
 #include <array>
@@ -133,7 +133,7 @@ int main(int argc, char** argv) {
   try {
     Boat boat;
     boat.wait_for_sim();
-    boat.run(argc > 1 ? std::stod(argv[1]) : 20.0);
+    boat.run(argc > 1 ? std::stod(argv[1]) : 10.0);
     return 0;
   } catch (const std::exception& fault) {
     return std::fprintf(stderr, "boat: %s\n", fault.what()), 1;

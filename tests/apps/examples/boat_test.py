@@ -1,4 +1,4 @@
-"""boat_test.py ros2 BIN SOURCE BUILD: that boat of examples/ floats, and its check.py finds what is wrong.
+"""boat_test.py ros2|gazebo BIN SOURCE BUILD: that boat of examples/ floats, and its check.py finds what is wrong.
 
 The folder is copied to an empty place and used as its README says, with the swell-sim of BIN and the package of BUILD.
 """
@@ -17,7 +17,10 @@ NAME = sys.argv[1]
 BIN, SOURCE, BUILD = (pathlib.Path(path).resolve() for path in sys.argv[2:5])
 EXAMPLE = SOURCE / "examples" / NAME
 SECONDS = 4
-NEEDS = {"ros2": (("idlc", "cyclonedds-tools"), ("dds/dds.h", "cyclonedds-dev"))}
+NEEDS = {"ros2": (("idlc", "cyclonedds-tools"), ("dds/dds.h", "cyclonedds-dev")),
+         "gazebo": (("ignition/transport11/ignition/transport/Node.hh", "libignition-transport-dev"),
+                    ("ignition/msgs8/ignition/msgs/pose_v.pb.h", "libignition-msgs-dev"))}
+SHARED = ("check.py", "hull.h", "sea.toml", "seen.h")  # each folder is whole, so that it can be copied
 
 
 def missing():
@@ -113,6 +116,11 @@ class Boat(unittest.TestCase):
             half = math.radians(0.5 * roll_deg)
             pose = [0.0, 0.0, 0.0, math.sin(half), 0.0, 0.0, math.cos(half)]
             self.assertAlmostEqual(check.wanted_horizon_deg(pose, 0.0), roll_deg, delta=1e-9)
+
+    def test_both_folders_have_the_same_of_what_they_share(self):
+        for name in SHARED:
+            self.assertEqual((SOURCE / "examples/ros2" / name).read_bytes(),
+                             (SOURCE / "examples/gazebo" / name).read_bytes(), name)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,31 @@
+#!/bin/sh
+# Builds the programs and runs the boat with its sensors: start.sh [FOLDER [SECONDS [SCENE]]]
+# FOLDER (seen) gets the pictures that its camera publishes and seen.txt, for check.py; SECONDS: 10. swell-sim is the
+# one in PATH, or that of the variable SWELL_SIM.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+seen=${1:-seen}
+seconds=${2:-10}
+scene=${3:-$here/sea.toml}
+# A partition of its own, on this machine alone, so that nobody else's /clock is heard. Newer versions have the prefix GZ.
+export IGN_PARTITION="${IGN_PARTITION:-boat$$}" IGN_IP="${IGN_IP:-127.0.0.1}"
+export GZ_PARTITION="${GZ_PARTITION:-$IGN_PARTITION}" GZ_IP="${GZ_IP:-$IGN_IP}"
+
+build() { cmake -S "$here" -B "$here/build" -DCMAKE_BUILD_TYPE=Release && cmake --build "$here/build"; }
+said=$(build 2>&1) || { echo "$said" >&2; exit 1; }
+mkdir -p "$seen"
+rm -f "$seen"/picture_*.ppm
+
+"$here/build/watch" "$seen" &
+watch=$!
+"${SWELL_SIM:-swell-sim}" --scene "$scene" --rig "$here/boat.toml" --gazebo on --clock input &
+sim=$!
+trap 'kill $watch $sim 2>/dev/null || true' EXIT
+"$here/build/boat" "$seconds"
+kill $sim
+wait $sim
+sleep 1  # what is on its way arrives
+kill $watch
+wait $watch
+trap - EXIT
+echo "$seen has $(find "$seen" -name 'picture_*.ppm' | wc -l) pictures; check.py $seen tells whether they are right"
