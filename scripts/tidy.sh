@@ -40,13 +40,13 @@ fi
 cmake --preset clang -B build/tidy -DSWELL_SIMD=avx2 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_UNITY_BUILD=OFF >/dev/null
 cmake --build build/tidy --target swell_commit >/dev/null  # a header that is made
 
-# to_read FILES: sources that are compiled; headers as they are, but those of vector code, of tests and of C++'s door in a
-# source that includes them.
+# to_read FILES: sources that are compiled; headers as they are, but those of vector code, of tests, of boats and of
+# C++'s door in a source that includes them.
 to_read() {
   for file in "$@"; do
     case $file in
       *-inl.h) file=$(git grep -l --fixed-strings "#include \"$file\"" -- '*.cpp' | head -n 1) ;;
-      tests/*.h | *.hpp) file=$(git grep -l "#include \".*$(basename "$file")\"" -- 'tests/*.cpp' | head -n 1) ;;
+      tests/*.h | examples/ros2/*.h | examples/gazebo/*.h | *.hpp) file=$(git grep -l "#include \".*$(basename "$file")\"" -- 'tests/*.cpp' | head -n 1) ;;
     esac
     case $file in
       *.h) echo "$file" ;;

@@ -34,7 +34,8 @@ def environment():
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "CYCLONEDDS", "IGN", "GZ"))}
     return {**kept, "ROS_DOMAIN_ID": str(100 + os.getpid() % 100), "IGN_PARTITION": f"swell{os.getpid()}",
             "GZ_PARTITION": f"swell{os.getpid()}", "SWELL_SIM": str(BIN / "swell-sim"),
-            "PYTHONPATH": str(BUILD / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
+            "PYTHONPATH": str(BUILD / "python"), "PYTHONDONTWRITEBYTECODE": "1",
+            "CXXFLAGS": "-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror"}
 
 
 @unittest.skipIf(missing(), f"without the packages {', '.join(missing())}")
