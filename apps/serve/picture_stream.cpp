@@ -1,25 +1,15 @@
 #include "apps/serve/picture_stream.h"
 
-#include <turbojpeg.h>
-
-#include <algorithm>
-#include <stdexcept>
+#include "apps/jpeg/jpeg.h"
 
 namespace swell::serve {
 namespace {
 
-constexpr int kQuality = 85;
+constexpr apps::JpegSettings kJpeg = {.quality = 85, .is_fast = true};
 
 std::string jpeg_of(const std::vector<std::uint8_t>& rgba, int width_px, int height_px) {
-  const std::unique_ptr<void, int (*)(tjhandle)> handle(tjInitCompress(), &tjDestroy);
-  if (!handle) throw std::runtime_error("cannot start libjpeg-turbo");
-  unsigned char* bytes = nullptr;
-  unsigned long size = 0;
-  const int failed = tjCompress2(handle.get(), rgba.data(), width_px, 4 * width_px, height_px,
-                                 TJPF_RGBA, &bytes, &size, TJSAMP_420, kQuality, TJFLAG_FASTDCT);
-  const std::unique_ptr<unsigned char, void (*)(unsigned char*)> owned(bytes, &tjFree);
-  if (failed) throw std::runtime_error(tjGetErrorStr2(handle.get()));
-  return {reinterpret_cast<const char*>(bytes), size};
+  const std::vector<std::uint8_t> bytes = apps::jpeg_bytes(rgba, width_px, height_px, kJpeg);
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
