@@ -21,6 +21,13 @@ namespace swell::apps::msg {
 struct Time {
   std::int32_t sec = 0;
   std::uint32_t nanosec = 0;  // [0, 1e9)
+
+  // Of a time from 0 to 2^31 s.
+  static Time of_ns(std::int64_t t_ns) {
+    constexpr std::int64_t kSecond_ns = 1'000'000'000;
+    return {static_cast<std::int32_t>(t_ns / kSecond_ns),
+            static_cast<std::uint32_t>(t_ns % kSecond_ns)};
+  }
   auto fields() const { return std::tie(sec, nanosec); }
 };
 
@@ -101,7 +108,7 @@ struct Image {
   static constexpr std::string_view kType = "sensor_msgs/msg/Image";
   Header header;
   std::uint32_t height = 0, width = 0;
-  std::string encoding;  // "rgb8", "32FC1", "16UC1", "32SC1"
+  std::string encoding;  // "rgb8", "32FC1", "16UC1", ...
   std::uint8_t is_bigendian = 0;
   std::uint32_t step = 0;
   std::vector<std::uint8_t> data;

@@ -75,10 +75,10 @@ void write_sidecar(const RenderOptions& options, const DrawnFrame& frame) {
 void write_frame_files(const RenderOptions& options, const DrawnFrame& frame) {
   const render::Target& target = frame.target;
   const int k = frame.frame;
-  const bool has_labels = !options.labels.empty();
+  const bool has_labels = !options.labels.empty() && !film_holds_labels(options);
   const std::vector<texture::ImageNote> notes = notes_of(options, frame);
   const std::filesystem::path picture = picture_path(options, k);
-  if (!picture.empty() && !(has_labels && picture == label_path(options, k)))
+  if (!picture.empty() && !is_film(picture) && !(has_labels && picture == label_path(options, k)))
     write_picture(target, picture, {notes, options.exr_compression});
   if (has_labels) {
     write_label_file(options, frame, notes);

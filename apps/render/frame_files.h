@@ -18,7 +18,8 @@ struct DrawnFrame {
   const render::Target& target;
 };
 
-// Writes every file that the options ask for, each whole or not there. Throws texture::FileError.
+// Writes every file of the frame's own that the options ask for, each whole or not there. Throws
+// texture::FileError.
 void write_frame_files(const RenderOptions& options, const DrawnFrame& frame);
 
 }  // namespace swell::apps

@@ -30,8 +30,10 @@ void add_time_options(CommandLine& line, RenderOptions& options) {
 }
 
 void add_output_options(CommandLine& line, RenderOptions& options) {
-  line.add_text("--out", "FILE", options.out,
-                "File to write: .png .exr .tif .tiff; %04d becomes the frame's number");
+  line.add_text(
+      "--out", "FILE", options.out,
+      "File to write: .png .exr .tif .tiff; %04d becomes the frame's number; .mcap: ROS 2 "
+      "messages");
   line.add_flag("--hash", options.hash, "Print 'frame N xxh3 HASH' of the 8-bit RGB picture");
   line.add_text("--json", "FILE", options.json,
                 "Write a line of JSON a frame; - is standard output, without what --hash prints");
@@ -77,7 +79,29 @@ void check_numbered(const RenderOptions& options, std::string_view option,
         pattern, range.last - range.first + 1));
 }
 
+// One file of all frames.
+void check_film(const RenderOptions& options) {
+  if (parse_file_pattern(options.out).numbered)
+    throw OptionError(
+        fmt::format("command line: --out: got '{}', allowed .mcap files without %d, which have all "
+                    "frames in them",
+                    options.out));
+  if (options.skip_existing)
+    throw OptionError(fmt::format(
+        "command line: --skip-existing, got it with --out '{}', allowed with a file a frame",
+        options.out));
+  constexpr double kLongest_s = 2147483647.0;  // of a stamp's seconds
+  const FrameRange range = frame_range(options);
+  for (const int frame : {range.first, range.last})
+    if (const double t_s = frame_time_s(options, frame); !(t_s >= 0.0 && t_s <= kLongest_s))
+      throw OptionError(
+          fmt::format("command line: --out '{}': got a frame at {} s, allowed 0 to {} s",
+                      options.out, t_s, kLongest_s));
+  check_output_place(options.out);
+}
+
 void check_picture_output(const RenderOptions& options) {
+  if (is_film(options.out)) return check_film(options);
   check_numbered(options, "--out", options.out);
   check_linear_light(options.setup.frame, "--out", options.out);
   check_picture_file(picture_path(options, frame_range(options).last));
@@ -88,6 +112,7 @@ void check_label_file(const RenderOptions& options) {
   if (options.out.empty() && options.labels_out.empty())
     throw OptionError(
         "command line: --labels, got no file for them, allowed with --out or --labels-out");
+  if (film_holds_labels(options)) return;
   if (!options.labels_out.empty()) check_numbered(options, "--labels-out", options.labels_out);
   const std::filesystem::path path = label_path(options, frame_range(options).last);
   if (lower_extension(path) != ".exr")
@@ -199,6 +224,12 @@ std::filesystem::path numbered_path(const RenderOptions& options, const std::str
                                     int frame) {
   if (!options.frames) return pattern;
   return frame_file(parse_file_pattern(pattern), frame);
+}
+
+bool is_film(const std::filesystem::path& path) { return lower_extension(path) == ".mcap"; }
+
+bool film_holds_labels(const RenderOptions& options) {
+  return is_film(options.out) && !options.labels.empty() && options.labels_out.empty();
 }
 
 std::filesystem::path label_path(const RenderOptions& options, int frame) {

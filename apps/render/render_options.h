@@ -47,8 +47,13 @@ std::filesystem::path picture_path(const RenderOptions& options, int frame);
 std::filesystem::path numbered_path(const RenderOptions& options, const std::string& pattern,
                                     int frame);
 
-// Where the labels go, if any: the file of --labels-out; else the picture's if that is an EXR file;
-// else, beside "x.png", "x.labels.exr".
+// Whether a file holds all frames (film_file.h), and their labels too: unless --labels-out is
+// given.
+bool is_film(const std::filesystem::path& path);
+bool film_holds_labels(const RenderOptions& options);
+
+// Where labels go that no film holds: the file of --labels-out; else the picture's if that is an
+// EXR file; else, beside "x.png", "x.labels.exr".
 std::filesystem::path label_path(const RenderOptions& options, int frame);
 
 // Beside a file of labels, "x.exr" or "x.labels.exr": "x.labels.json".

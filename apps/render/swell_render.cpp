@@ -4,6 +4,7 @@
 #include <chrono>
 #include <vector>
 
+#include "apps/render/film_file.h"
 #include "apps/render/frame_files.h"
 #include "apps/render/frame_log.h"
 #include "apps/render/label_sidecar.h"
@@ -29,7 +30,7 @@ render::FrameOptions frame_options(const RenderOptions& options) {
 }
 
 // Writes the frame's files and tells of it.
-FrameRecord finish_frame(const RenderOptions& options, const DrawnFrame& frame) {
+FrameRecord finish_frame(const RenderOptions& options, const DrawnFrame& frame, FilmFile& film) {
   FrameRecord record = {frame.frame,
                         frame.t_s,
                         frame.view.width_px,
@@ -41,6 +42,7 @@ FrameRecord finish_frame(const RenderOptions& options, const DrawnFrame& frame) 
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   write_frame_files(options, frame);
+  film.add(frame);
   record.file_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   return record;
 }
@@ -58,6 +60,7 @@ void draw_frames(const RenderOptions& options, const render::World& world, Frame
   EyeWarning warning;
   const FrameRange range = frame_range(options);
   PictureStream stream(options.stream, options.fps);
+  FilmFile film(options);
   Progress progress((range.last - range.first) / options.every + 1, options.quiet, "frames");
   const std::string scene_hash = scene_hash_text(world.scene());
   for (int k = range.first; k <= range.last; k += options.every) {
@@ -76,9 +79,10 @@ void draw_frames(const RenderOptions& options, const render::World& world, Frame
     warning.look(k, world, view, workspace);
     stream.add(target);
     const std::uint64_t hash = render::picture_hash(target);
-    log.add(finish_frame(options, {k, t_s, hash, scene_hash, world.scene(), view, target}));
+    log.add(finish_frame(options, {k, t_s, hash, scene_hash, world.scene(), view, target}, film));
     progress.step();
   }
+  film.finish();
 }
 
 void run(const RenderOptions& options) {

@@ -1,11 +1,11 @@
 #include "apps/sim/camera.h"
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <span>
 
+#include "apps/messages/camera_messages.h"
 #include "apps/sim/lens.h"
 #include "apps/sim/sim_world.h"
 #include "math/elementary.h"
@@ -26,20 +26,20 @@ class CameraSensor {
     find_projection();
     find_lookup();
     options_.noise = sensor.noise;
-    const std::string name = "/" + sensor.name;
-    picture_ = simulation.topic(name + "/image_raw", msg::Image::kType);
-    info_ = simulation.topic(name + "/camera_info", msg::CameraInfo::kType);
-    if (sensor.depth) add_label(Label::kDepth, name + "/depth", simulation);
-    if (sensor.classes) add_label(Label::kClass, name + "/class", simulation);
-    if (sensor.ids) add_label(Label::kId, name + "/id", simulation);
+    picture_ = simulation.topic(camera_topic(sensor.name, kPictureTopic), msg::Image::kType);
+    info_ = simulation.topic(camera_topic(sensor.name, kCameraInfoTopic), msg::CameraInfo::kType);
+    if (sensor.depth) add_label(Label::kDepth, simulation);
+    if (sensor.classes) add_label(Label::kClass, simulation);
+    if (sensor.ids) add_label(Label::kId, simulation);
   }
 
   void publish(const Moment& moment, const Emit& emit) {
     draw(moment);
-    const msg::Header header = {moment.stamp(), optical_frame_name(sensor_)};
-    emit(picture_, picture(header));
-    emit(info_, info(header));
-    for (const LabelTopic& label : labels_) emit(label.topic, label_picture(header, label.label));
+    const ImageHead head = {
+        {moment.stamp(), optical_frame_name(sensor_)}, sensor_.width_px, sensor_.height_px};
+    emit(picture_, rgb_image(head, picture()));
+    emit(info_, camera_info(head, {projection_, k_, sensor_.distortion}));
+    for (const LabelTopic& label : labels_) emit(label.topic, label_picture(head, label.label));
   }
 
  private:
@@ -88,8 +88,10 @@ class CameraSensor {
     lens_ = lens_of_intrinsics(lookup_->wide_intrinsics(), width_px_, height_px_);
   }
 
-  void add_label(Label label, const std::string& name, Simulation& simulation) {
-    labels_.push_back({label, simulation.topic(name, msg::Image::kType)});
+  void add_label(Label label, Simulation& simulation) {
+    const std::string_view name = render::label_table()[static_cast<std::size_t>(label)].name;
+    labels_.push_back(
+        {label, simulation.topic(camera_topic(sensor_.name, name), msg::Image::kType)});
     options_.labels.add(label);
   }
 
@@ -106,79 +108,37 @@ class CameraSensor {
     options_.poses = {};
   }
 
+  // R, G, B of the picture as the lens shows it.
+  std::vector<std::uint8_t> picture() const {
+    if (!lookup_) return rgb_bytes(target_.rgba);
+    std::vector<std::uint8_t> rgb(3 * pixels());
+    lookup_->blend(target_.rgba, rgb);
+    return rgb;
+  }
+
   std::size_t pixels() const {
     return static_cast<std::size_t>(sensor_.width_px) * static_cast<std::size_t>(sensor_.height_px);
   }
 
-  msg::Image image(const msg::Header& header, const char* encoding, std::size_t pixel_bytes) const {
-    msg::Image image;
-    image.header = header;
-    image.height = static_cast<std::uint32_t>(sensor_.height_px);
-    image.width = static_cast<std::uint32_t>(sensor_.width_px);
-    image.encoding = encoding;
-    image.step = static_cast<std::uint32_t>(pixel_bytes) * image.width;
-    image.data.resize(pixels() * pixel_bytes);
-    return image;
-  }
-
-  msg::Image picture(const msg::Header& header) const {
-    msg::Image image = this->image(header, "rgb8", 3);
-    if (lookup_) {
-      lookup_->blend(target_.rgba, image.data);
-      return image;
-    }
-    for (std::size_t i = 0; i < target_.rgba.size(); ++i)
-      for (std::size_t c = 0; c < 3; ++c)
-        image.data[3 * i + c] = static_cast<std::uint8_t>(target_.rgba[i] >> (8 * c));
-    return image;
-  }
-
-  msg::Image label_picture(const msg::Header& header, Label label) const {
+  msg::Image label_picture(const ImageHead& head, Label label) const {
     const render::Labels& labels = target_.labels;
     switch (label) {
       case Label::kDepth:
-        return values<float>(header, "32FC1", labels.depth_m);
+        return float_image(head, seen(labels.depth_m));
       case Label::kClass:
-        return values<std::uint16_t>(header, "16UC1", labels.klass);
+        return class_image(head, seen(labels.klass));
       default:
-        return values<std::uint32_t>(header, "32SC1", labels.id);
+        return id_image(head, seen(labels.id));
     }
   }
 
-  template <class Written, class Value>
-  msg::Image values(const msg::Header& header, const char* encoding,
-                    const std::vector<Value>& plane) const {
-    msg::Image image = this->image(header, encoding, sizeof(Written));
-    for (std::size_t i = 0; i < pixels(); ++i) {
-      const auto value = static_cast<Written>(plane[lookup_ ? lookup_->nearest(i) : i]);
-      std::memcpy(image.data.data() + i * sizeof value, &value, sizeof value);
-    }
-    return image;
-  }
-
-  msg::CameraInfo info(const msg::Header& header) const {
-    msg::CameraInfo info;
-    info.header = header;
-    info.height = static_cast<std::uint32_t>(sensor_.height_px);
-    info.width = static_cast<std::uint32_t>(sensor_.width_px);
-    info.r = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-    switch (projection_.kind) {
-      case ProjectionKind::kPerspective:
-        info.distortion_model = "plumb_bob";
-        info.d = sensor_.distortion;
-        break;
-      case ProjectionKind::kFisheye:
-        info.distortion_model = "equidistant";
-        info.d.assign(projection_.bend.begin(), projection_.bend.end());
-        break;
-      case ProjectionKind::kEquirectangular:  // no matrix says what it sees
-        info.distortion_model = "equirectangular";
-        return info;
-    }
-    const double cx = k_.cx - 0.5, cy = k_.cy - 0.5;
-    info.k = {k_.fx, 0.0, cx, 0.0, k_.fy, cy, 0.0, 0.0, 1.0};
-    info.p = {k_.fx, 0.0, cx, 0.0, 0.0, k_.fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0};
-    return info;
+  // A label's values as the lens shows them.
+  template <class Value>
+  std::vector<Value> seen(const std::vector<Value>& plane) const {
+    if (!lookup_) return plane;
+    std::vector<Value> values(pixels());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = plane[lookup_->nearest(i)];
+    return values;
   }
 
   const scene::Sensor& sensor_;

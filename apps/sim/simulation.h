@@ -18,11 +18,7 @@ struct Moment {
   std::int64_t t_ns = 0;
 
   double t_s() const { return static_cast<double>(t_ns) / 1e9; }
-  msg::Time stamp() const {
-    constexpr std::int64_t kSecond_ns = 1'000'000'000;
-    return {static_cast<std::int32_t>(t_ns / kSecond_ns),
-            static_cast<std::uint32_t>(t_ns % kSecond_ns)};
-  }
+  msg::Time stamp() const { return msg::Time::of_ns(t_ns); }
 };
 
 using Emit = FunctionRef<void(std::size_t topic, const msg::Message& message)>;
