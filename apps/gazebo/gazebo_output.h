@@ -14,7 +14,7 @@ namespace swell::apps {
 inline constexpr const char* kGazeboText = R"(
 Gazebo's transport (--gazebo on): to whom, IGN_PARTITION and IGN_IP say, GZ_ from version 13 on. It
 runs in real time until it is ended, but for --clock input and --duration
-  /NAME/image                 Image of a camera, RGB_INT8
+  /NAME/image                 Image of a camera, RGB_INT8, unless raw = false; none is compressed
   /NAME/depth_image           Image, R_FLOAT32: metres along the view axis
   /NAME/semantic/labels_map   Image as of a segmentation camera: each byte of a pixel is the class
   /NAME/panoptic/labels_map   likewise: the id's low byte, its high byte, the class

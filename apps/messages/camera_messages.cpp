@@ -54,6 +54,12 @@ msg::Image rgb_image(const ImageHead& head, std::vector<std::uint8_t> rgb) {
   return image(head, "rgb8", std::move(rgb));
 }
 
+// The channels' order is the one that OpenCV decodes to.
+msg::CompressedImage compressed_rgb_image(const ImageHead& head, std::string_view coding,
+                                          std::vector<std::uint8_t> bytes) {
+  return {head.header, "rgb8; " + std::string(coding) + " compressed bgr8", std::move(bytes)};
+}
+
 msg::Image float_image(const ImageHead& head, std::span<const float> values) {
   std::vector<std::uint8_t> data(values.size_bytes());
   std::memcpy(data.data(), values.data(), data.size());

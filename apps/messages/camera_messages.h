@@ -15,7 +15,8 @@ namespace swell::apps {
 
 // "/camera/image_raw" of "camera" and "image_raw". A label's picture has the label's name.
 std::string camera_topic(const std::string& camera, std::string_view what);
-inline constexpr std::string_view kPictureTopic = "image_raw", kCameraInfoTopic = "camera_info";
+inline constexpr std::string_view kPictureTopic = "image_raw", kCameraInfoTopic = "camera_info",
+                                  kCompressedTopic = "image_raw/compressed";
 
 // An image but for its pixels. Cameras are in frames with x right, y down, z ahead
 // (scene::optical_frame_name).
@@ -29,6 +30,10 @@ std::vector<std::uint8_t> rgb_bytes(std::span<const std::uint32_t> rgba);
 
 // "rgb8", of three bytes a pixel.
 msg::Image rgb_image(const ImageHead& head, std::vector<std::uint8_t> rgb);
+
+// The same as bytes of "jpeg" or "png", in the words of image_transport's plugins.
+msg::CompressedImage compressed_rgb_image(const ImageHead& head, std::string_view coding,
+                                          std::vector<std::uint8_t> bytes);
 
 // "32FC1" to "32FC3": one to three numbers a pixel, as many as there are.
 msg::Image float_image(const ImageHead& head, std::span<const float> values);

@@ -117,6 +117,15 @@ struct Image {
   }
 };
 
+// An image as an encoder has it: what image_transport publishes beside the image's topic.
+struct CompressedImage {
+  static constexpr std::string_view kType = "sensor_msgs/msg/CompressedImage";
+  Header header;
+  std::string format;  // "rgb8; jpeg compressed bgr8"
+  std::vector<std::uint8_t> data;
+  auto fields() const { return std::tie(header, format, data); }
+};
+
 struct RegionOfInterest {  // zeros: all of the picture
   std::uint32_t x_offset = 0, y_offset = 0, height = 0, width = 0;
   bool do_rectify = false;
@@ -237,7 +246,7 @@ struct Clock {
 };
 
 // What a topic may carry.
-using Message = std::variant<Image, CameraInfo, PointCloud2, Imu, NavSatFix, Range, PointStamped,
-                             PoseStamped, Odometry, TFMessage, Clock>;
+using Message = std::variant<Image, CompressedImage, CameraInfo, PointCloud2, Imu, NavSatFix, Range,
+                             PointStamped, PoseStamped, Odometry, TFMessage, Clock>;
 
 }  // namespace swell::apps::msg

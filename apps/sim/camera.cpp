@@ -5,17 +5,20 @@
 #include <optional>
 #include <span>
 
+#include "apps/jpeg/jpeg.h"
 #include "apps/messages/camera_messages.h"
 #include "apps/sim/lens.h"
 #include "apps/sim/sim_world.h"
 #include "math/elementary.h"
 #include "math/projection.h"
 #include "render/frame.h"
+#include "texture/image/image_io.h"
 
 namespace swell::apps {
 namespace {
 
 using render::Label;
+using scene::PictureCoding;
 
 class CameraSensor {
  public:
@@ -26,7 +29,9 @@ class CameraSensor {
     find_projection();
     find_lookup();
     options_.noise = sensor.noise;
-    picture_ = simulation.topic(camera_topic(sensor.name, kPictureTopic), msg::Image::kType);
+    if (sensor.raw)
+      picture_ = simulation.topic(camera_topic(sensor.name, kPictureTopic), msg::Image::kType);
+    if (sensor.compressed != PictureCoding::kNone) add_compressed(simulation);
     info_ = simulation.topic(camera_topic(sensor.name, kCameraInfoTopic), msg::CameraInfo::kType);
     if (sensor.depth) add_label(Label::kDepth, simulation);
     if (sensor.classes) add_label(Label::kClass, simulation);
@@ -37,7 +42,7 @@ class CameraSensor {
     draw(moment);
     const ImageHead head = {
         {moment.stamp(), optical_frame_name(sensor_)}, sensor_.width_px, sensor_.height_px};
-    emit(picture_, rgb_image(head, picture()));
+    publish_picture(head, emit);
     emit(info_, camera_info(head, {projection_, k_, sensor_.distortion}));
     for (const LabelTopic& label : labels_) emit(label.topic, label_picture(head, label.label));
   }
@@ -88,6 +93,15 @@ class CameraSensor {
     lens_ = lens_of_intrinsics(lookup_->wide_intrinsics(), width_px_, height_px_);
   }
 
+  void add_compressed(Simulation& simulation) {
+    if (sensor_.compressed == PictureCoding::kJpeg && !has_jpeg())
+      refuse("compressed",
+             "got \"jpeg\", allowed \"none\" or \"png\": this swell-sim was built without "
+             "libjpeg-turbo");
+    compressed_ =
+        simulation.topic(camera_topic(sensor_.name, kCompressedTopic), msg::CompressedImage::kType);
+  }
+
   void add_label(Label label, Simulation& simulation) {
     const std::string_view name = render::label_table()[static_cast<std::size_t>(label)].name;
     labels_.push_back(
@@ -108,12 +122,28 @@ class CameraSensor {
     options_.poses = {};
   }
 
+  void publish_picture(const ImageHead& head, const Emit& emit) const {
+    if (!picture_ && !compressed_) return;
+    std::vector<std::uint8_t> rgb = picture();
+    if (compressed_)
+      emit(*compressed_,
+           compressed_rgb_image(head, scene::kPictureCodings[sensor_.compressed], encoded(rgb)));
+    if (picture_) emit(*picture_, rgb_image(head, std::move(rgb)));
+  }
+
   // R, G, B of the picture as the lens shows it.
   std::vector<std::uint8_t> picture() const {
     if (!lookup_) return rgb_bytes(target_.rgba);
     std::vector<std::uint8_t> rgb(3 * pixels());
     lookup_->blend(target_.rgba, rgb);
     return rgb;
+  }
+
+  std::vector<std::uint8_t> encoded(const std::vector<std::uint8_t>& rgb) const {
+    const int width = sensor_.width_px, height = sensor_.height_px;
+    if (sensor_.compressed == PictureCoding::kJpeg)
+      return jpeg_bytes(rgb, width, height, {.quality = sensor_.jpeg_quality});
+    return texture::encode_image(texture::Image8{width, height, 3, rgb}, ".png");
   }
 
   std::size_t pixels() const {
@@ -148,7 +178,8 @@ class CameraSensor {
   Lens lens_;                         // of the pinhole picture that is drawn,
   int width_px_ = 0, height_px_ = 0;  // and its size
   std::optional<LensLookup> lookup_;  // none: it is the picture
-  std::size_t picture_ = 0, info_ = 0;
+  std::optional<std::size_t> picture_, compressed_;
+  std::size_t info_ = 0;
   std::vector<LabelTopic> labels_;
   render::FrameOptions options_;
   render::Workspace workspace_;

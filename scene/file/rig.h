@@ -62,6 +62,11 @@ inline constexpr auto kLidarPatterns =
                               {LidarPattern::kOs1x128, "os1-128"},
                               {LidarPattern::kGrid, "grid"}});
 
+// What a camera's picture is published as besides.
+enum class PictureCoding : std::uint8_t { kNone, kJpeg, kPng };
+inline constexpr auto kPictureCodings = enum_words<PictureCoding>(
+    {{PictureCoding::kNone, "none"}, {PictureCoding::kJpeg, "jpeg"}, {PictureCoding::kPng, "png"}});
+
 // As render::LidarScan has them.
 struct LidarSettings {
   LidarPattern pattern = LidarPattern::kHdl32e;
@@ -85,7 +90,10 @@ struct Sensor {
   int width_px = 640, height_px = 360;
   double fov_y_rad = radians(50.0);
   double near_m = 0.25;
-  std::vector<double> distortion = std::vector<double>(5);   // k1, k2, p1, p2, k3
+  std::vector<double> distortion = std::vector<double>(5);  // k1, k2, p1, p2, k3
+  bool raw = true;                                          // the picture as it is
+  PictureCoding compressed = PictureCoding::kNone;
+  int jpeg_quality = 95;
   bool depth = false;                                        // a picture of it besides
   ProjectionKind projection = ProjectionKind::kPerspective;  // as Camera has the next four
   double fisheye_fov_rad = radians(180.0);

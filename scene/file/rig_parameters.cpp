@@ -50,6 +50,23 @@ void add_labels(Keys& keys, std::string_view classes, std::string_view ids) {
   keys.push_back(SensorRow::plain<bool>("id", ParameterKind::kBoolean, SWELL_FIELD(ids), ids));
 }
 
+struct PictureCodingName {
+  static constexpr auto words = kPictureCodings;
+  auto& operator()(auto& sensor) const { return sensor.compressed; }
+};
+
+// How the picture is published.
+void add_pictures(Keys& keys) {
+  keys.push_back(SensorRow::plain<bool>("raw", ParameterKind::kBoolean, SWELL_FIELD(raw),
+                                        "publish the picture as it is, image_raw"));
+  keys.push_back(SensorRow::choice(
+      "compressed", PictureCodingName{},
+      "publish it as a CompressedImage too, image_raw/compressed, as image_transport does; "
+      "Gazebo has no such message"));
+  keys.push_back(SensorRow::integer("jpeg_quality", ParameterKind::kInteger, {1, 100},
+                                    SWELL_FIELD(jpeg_quality), "of compressed = \"jpeg\""));
+}
+
 // What a scene's camera has as well.
 void add_projection(Keys& keys) {
   keys.push_back(SensorRow::choice(
@@ -90,6 +107,7 @@ void add_camera(Keys& keys) {
                                    "nearer things are cut off"));
   keys.push_back(SensorRow::list("distortion", {-100, 100}, 5, 5, SWELL_FIELD(distortion),
                                  "k1, k2, p1, p2, k3 of the lens, as OpenCV has them"));
+  add_pictures(keys);
   keys.push_back(
       SensorRow::plain<bool>("depth", ParameterKind::kBoolean, SWELL_FIELD(depth),
                              "publish depth along the view axis, of wide cameras distance, "

@@ -72,6 +72,12 @@ INSTANTIATE_TEST_SUITE_P(
                      "rig.toml:3: column 13: camera[0].fov_y_deg, got nan, allowed 1 to 170 deg"},
         RigFaultCase{"[[camera]]\nname = \"c\"\ndepth = 1\n",
                      "rig.toml:3: column 9: camera[0].depth, got 1, allowed true or false"},
+        RigFaultCase{"[[camera]]\nname = \"c\"\ncompressed = \"webp\"\n",
+                     "rig.toml:3: column 14: camera[0].compressed, got \"webp\", allowed \"none\", "
+                     "\"jpeg\" or \"png\""},
+        RigFaultCase{"[[camera]]\nname = \"c\"\njpeg_quality = 0\n",
+                     "rig.toml:3: column 16: camera[0].jpeg_quality, got 0, allowed an integer, 1 "
+                     "to 100"},
         RigFaultCase{"[[camera]]\nname = \"c\"\ndistortion = [0.1]\n",
                      "rig.toml:3: column 14: camera[0].distortion, got an array of 1 values, "
                      "allowed 5 numbers, each -100 to 100"},

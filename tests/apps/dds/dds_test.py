@@ -163,14 +163,16 @@ class Dds(unittest.TestCase):
 
     def test_a_foreign_reader_gets_what_a_recording_has(self):
         probe = self.folder / "probe.mcap"
-        subprocess.run([BIN / "swell-sim", "--scene", SCENE, "--rig", RIG, *SMALL, "--record", probe, "--duration",
+        pictures = (*SMALL, "--rig-set", "camera[0].compressed=jpeg")
+        subprocess.run([BIN / "swell-sim", "--scene", SCENE, "--rig", RIG, *pictures, "--record", probe, "--duration",
                         "0.01", "--rig-set", "clock_hz=0"], check=True, stdout=subprocess.DEVNULL)
         topics = self.topics_of(probe)
-        self.assertEqual(len(topics), 15)
+        self.assertEqual(len(topics), 16)
+        self.assertIn("/camera/image_raw/compressed=sensor_msgs/msg/CompressedImage", topics)
         reader = self.peer("read", *topics)
         reader.wait_for("ready")
         path = self.folder / "run.mcap"
-        sim = self.sim(*SMALL, "--clock", "input", "--inputs", "-", "--record", path, scene=SCENE, rig=RIG)
+        sim = self.sim(*pictures, "--clock", "input", "--inputs", "-", "--record", path, scene=SCENE, rig=RIG)
         # Until all have found each other; what was published before is lost to volatile readers.
         t_ns = 0
         waiting = {topic.split("=")[0] for topic in topics}
@@ -192,7 +194,7 @@ class Dds(unittest.TestCase):
         lines = reader.finish()
         got = after(text for text in lines if text.startswith("/"))
         recorded = after(map(line, mcap_reader.read(path).messages))
-        self.assertEqual(len(recorded), 1080)
+        self.assertEqual(len(recorded), 1120)
         self.assertEqual(got, recorded)
         self.assertEqual(sum(text.startswith("/tf_static ") for text in lines), 1)
 
