@@ -1,5 +1,7 @@
 // Prints a line for each message of an MCAP file as Foxglove's readers have it: topic, type, time, and the SHA-256 of
-// its values: read_mcap.mjs FILE [--chunks]. With --chunks the file may end anywhere: all that stands in whole records.
+// its values: read_mcap.mjs FILE [--chunks | --images]. With --chunks the file may end anywhere: all that stands in
+// whole records. With --images those of images alone: topic, width, height, encoding, bytes, time, stamp, and the
+// SHA-256 of their bytes.
 import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -9,6 +11,8 @@ const { parse } = require("@foxglove/rosmsg");
 const { MessageReader } = require("@foxglove/rosmsg2-serialization");
 const { decompress } = require("fzstd");
 const { McapIndexedReader, McapStreamReader } = await import(require.resolve("@mcap/core"));
+
+const [path, mode] = process.argv.slice(2);
 
 // Numbers as doubles, texts in UTF-8, bytes as they are.
 function addValues(hash, value) {
@@ -34,16 +38,24 @@ function add(record) {
   } else if (record.type === "Channel") channels.set(record.id, record);
   else if (record.type === "Message") {
     const channel = channels.get(record.channelId);
+    const type = types.get(channel.schemaId);
+    if (mode === "--images" && type !== "sensor_msgs/msg/Image") return;
+    const values = readers.get(channel.schemaId).readMessage(record.data);
     const hash = createHash("sha256");
-    addValues(hash, readers.get(channel.schemaId).readMessage(record.data));
-    console.log(channel.topic, types.get(channel.schemaId), String(record.logTime), hash.digest("hex"));
+    addValues(hash, mode === "--images" ? values.data : values);
+    const said = [type, String(record.logTime)];
+    if (mode === "--images") {
+      const { sec, nanosec } = values.header.stamp;
+      said.splice(0, 1, values.width, values.height, values.encoding, values.data.length);
+      said.push(String(BigInt(sec) * 1000000000n + BigInt(nanosec)));
+    }
+    console.log(channel.topic, ...said, hash.digest("hex"));
   }
 }
 
-const [path, chunks] = process.argv.slice(2);
 const file = readFileSync(path);
 const decompressHandlers = { zstd: (bytes, size) => decompress(bytes, new Uint8Array(Number(size))) };
-if (chunks) {
+if (mode === "--chunks") {
   const reader = new McapStreamReader({ decompressHandlers, validateCrcs: true });
   reader.append(file);
   for (let record; (record = reader.nextRecord()); ) add(record);
