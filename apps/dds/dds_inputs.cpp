@@ -22,6 +22,7 @@ DdsInputs::DdsInputs(DdsDomain& domain, bool takes_clock, Inputs& inputs) : inpu
   if (takes_clock) add_reader(domain, "/clock", "", msg::Clock::kType);
   for (const std::string& frame : inputs.frames())
     add_reader(domain, pose_topic(frame), frame, msg::PoseStamped::kType);
+  domain.announce();
   inputs_.begin();
   thread_ = std::thread([this] { listen(); });
 }
@@ -48,6 +49,7 @@ void DdsInputs::add_reader(DdsDomain& domain, const std::string& topic, const st
   dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
   dds_waitset_attach(waitset_, reader, 0);
   readers_.push_back({topic, frame, reader});
+  domain.add_reader(reader);
 }
 
 void DdsInputs::listen() {

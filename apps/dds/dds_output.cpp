@@ -45,7 +45,9 @@ DdsOutput::DdsOutput(DdsDomain& domain, std::span<const Topic> topics) {
     if (writer < 0)
       throw std::runtime_error(fmt::format("{}: DDS: {}", topic.name, dds_strretcode(-writer)));
     writers_.push_back({topic.name, writer});
+    domain.add_writer(writer);
   }
+  domain.announce();
 }
 
 void DdsOutput::write(std::size_t topic, std::int64_t, const msg::Message& message) {

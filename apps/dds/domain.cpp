@@ -10,6 +10,7 @@
 
 #include "apps/dds/cdr_type.h"
 #include "apps/dds/interfaces.h"
+#include "apps/dds/node_info.h"
 #include "apps/shared/program.h"
 
 namespace swell::apps {
@@ -33,6 +34,25 @@ std::string dds_type(std::string_view type) {
     at = end + 1;
   }
   return name;
+}
+
+using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+
+// As nodes of ROS 2 have it, which look for their security enclave.
+Qos participant_qos() {
+  constexpr std::string_view kEnclave = "enclave=/;";
+  Qos qos(dds_create_qos(), &dds_delete_qos);
+  dds_qset_userdata(qos.get(), kEnclave.data(), kEnclave.size());
+  return qos;
+}
+
+// Who comes later gets the last message.
+Qos announcer_qos() {
+  Qos qos(dds_create_qos(), &dds_delete_qos);
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+  return qos;
 }
 
 std::vector<std::string> interfaces_of(const ddsi_sertype* type) {
@@ -81,11 +101,16 @@ DdsDomain::DdsDomain(const DdsEnvironment& environment, bool is_patient)
   const std::string configuration =
       (is_patient ? "" : kNeverWait) + environment.configuration + kNoSharedMemory;
   domain_ = dds_create_domain(environment.domain, configuration.c_str());
-  if (domain_ >= 0) participant_ = dds_create_participant(environment.domain, nullptr, nullptr);
+  if (domain_ >= 0)
+    participant_ = dds_create_participant(environment.domain, participant_qos().get(), nullptr);
   const std::string fault = fmt::format("DDS domain {}: {}", environment.domain, log_->begin());
   if (domain_ == DDS_RETCODE_ERROR || domain_ == DDS_RETCODE_BAD_PARAMETER)
     throw OptionError("CYCLONEDDS_URI: " + fault);
-  if (domain_ >= 0 && participant_ >= 0) return;
+  if (domain_ >= 0 && participant_ >= 0) {
+    node_.name = "swell_sim";
+    dds_get_guid(participant_, &node_.participant);
+    return;
+  }
   if (domain_ >= 0) dds_delete(domain_);
   throw std::runtime_error(fault);
 }
@@ -98,6 +123,25 @@ dds_entity_t DdsDomain::topic(const std::string& name, std::string_view type) {
     throw std::runtime_error(fmt::format("{}: DDS: {}", name, dds_strretcode(-made.entity)));
   if (interfaces_.empty()) interfaces_ = interfaces_of(made.type);
   return made.entity;
+}
+
+void DdsDomain::add_endpoint(dds_entity_t endpoint, std::vector<dds_guid_t>& to) {
+  dds_get_guid(endpoint, &to.emplace_back());
+}
+
+void DdsDomain::announce() {
+  const auto check = [](dds_return_t code) {
+    if (code < 0)
+      throw std::runtime_error(fmt::format("{}: DDS: {}", kNodeInfoTopic, dds_strretcode(-code)));
+  };
+  if (announcer_ == 0) {
+    const CdrTopic topic = create_cdr_topic(participant_, kNodeInfoTopic, kNodeInfoType);
+    check(topic.entity);
+    announcer_ = dds_create_writer(participant_, topic.entity, announcer_qos().get(), nullptr);
+    check(announcer_);
+  }
+  const std::vector<std::uint8_t> bytes = node_info_bytes(node_, environment_.gid_bytes);
+  check(dds_write(announcer_, &bytes));
 }
 
 std::string DdsDomain::audience() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/dds/environment.h"
+#include "apps/dds/node_info.h"
 
 namespace swell::apps {
 
@@ -30,17 +31,29 @@ class DdsDomain {
   // give topics and types in DDS. Throws std::runtime_error.
   dds_entity_t topic(const std::string& name, std::string_view type);
 
+  // An endpoint of the node that this is.
+  void add_reader(dds_entity_t reader) { add_endpoint(reader, node_.readers); }
+  void add_writer(dds_entity_t writer) { add_endpoint(writer, node_.writers); }
+
+  // Tells other nodes of this one, "/swell_sim", with all endpoints so far. Throws
+  // std::runtime_error.
+  void announce();
+
   // Who can hear it, in words: the domain, the interfaces.
   std::string audience() const;
 
  private:
   class Log;
 
+  void add_endpoint(dds_entity_t endpoint, std::vector<dds_guid_t>& to);
+
   DdsEnvironment environment_;
   bool is_patient_;
   std::unique_ptr<Log> log_;
   dds_entity_t domain_ = 0, participant_ = 0;
   std::vector<std::string> interfaces_;
+  NodeInfo node_;
+  dds_entity_t announcer_ = 0;
 };
 
 }  // namespace swell::apps

@@ -62,6 +62,12 @@ std::vector<std::string> peers_of(const std::string& value) {
   return peers;
 }
 
+std::size_t gid_bytes_of(const std::string& distribution) {
+  static constexpr std::array<std::string_view, 5> kFirst = {"", "eloquent", "foxy", "galactic",
+                                                             "humble"};
+  return std::ranges::count(kFirst, distribution) > 0 ? 24 : 16;
+}
+
 std::string element(std::string_view name, std::string_view content) {
   return fmt::format("<{0}>{1}</{0}>", name, content);
 }
@@ -84,6 +90,7 @@ DdsEnvironment read_dds_environment(const std::function<std::string(const char*)
   DdsEnvironment environment;
   environment.domain = domain_of(variable("ROS_DOMAIN_ID"));
   environment.range = range_of(variable("ROS_AUTOMATIC_DISCOVERY_RANGE"));
+  environment.gid_bytes = gid_bytes_of(variable("ROS_DISTRO"));
   const std::string localhost = variable("ROS_LOCALHOST_ONLY");
   if (localhost != "" && localhost != "0" && localhost != "1")
     refuse_variable("ROS_LOCALHOST_ONLY", localhost, "0 or 1");

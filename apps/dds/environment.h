@@ -1,6 +1,7 @@
 // What ROS 2's environment variables ask of its DDS: which domain, and who hears it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -14,6 +15,7 @@ struct DdsEnvironment {
   std::uint32_t domain = 0;
   DiscoveryRange range = DiscoveryRange::kSubnet;
   bool is_loopback_alone = false;  // no packet leaves this machine
+  std::size_t gid_bytes = 24;      // of identifiers in what nodes tell of themselves (node_info.h)
   std::string configuration;       // Cyclone's, in XML; parts with commas between them
 };
 
@@ -24,6 +26,8 @@ struct DdsEnvironment {
 //                                  stay on others and want LOCALHOST below
 //   ROS_AUTOMATIC_DISCOVERY_RANGE  OFF, LOCALHOST, SUBNET or SYSTEM_DEFAULT; SUBNET
 //   ROS_STATIC_PEERS               hosts that are looked for besides, with ; between them
+//   ROS_DISTRO                     identifiers have 24 bytes up to humble and where it is not set,
+//                                  16 with later ones
 //   CYCLONEDDS_URI                 Cyclone's configuration, which comes last
 // Discovery is configured as ROS 2's nodes configure it (rmw_cyclonedds: interfaces of Humble,
 // ranges of Iron and later). Throws OptionError for other values.

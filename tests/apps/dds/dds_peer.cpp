@@ -4,6 +4,8 @@
 //   dds_peer drive BODY_TOPIC REPLY_TOPIC STEPS PERIOD_MS
 //                                         steers a body and the clock in lock-step: each step waits
 //                                         for the reply (a PoseStamped) of its stamp
+//   dds_peer nodes NAME                   waits for a node of this name; then 'publishes TOPIC' and
+//                                         'hears TOPIC' of each of its endpoints
 //   dds_peer churn COUNT TOPIC=TYPE ...   subscribes and leaves so often
 #include <dds/dds.h>
 #include <poll.h>
@@ -212,6 +214,72 @@ int drive(const std::string& body_topic, const std::string& reply_topic, int ste
   return 0;
 }
 
+std::string hex(const unsigned char* bytes) {
+  std::string text;
+  for (int n = 0; n < 16; ++n) {
+    char digits[3];
+    std::snprintf(digits, sizeof digits, "%02x", bytes[n]);
+    text += digits;
+  }
+  return text;
+}
+
+// The topics of all endpoints that DDS itself has found, by their identifiers.
+std::map<std::string, std::string> endpoints(dds_entity_t participant, dds_entity_t builtin_topic) {
+  std::map<std::string, std::string> topics;
+  const dds_entity_t reader =
+      made(dds_create_reader(participant, builtin_topic, nullptr, nullptr), "endpoints");
+  void* samples[200] = {};
+  dds_sample_info_t infos[200];
+  const dds_return_t count = dds_take(reader, samples, infos, 200, 200);
+  for (int n = 0; n < count; ++n) {
+    const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(samples[n]);
+    if (infos[n].valid_data) topics[hex(endpoint.key.v)] = endpoint.topic_name;
+  }
+  if (count > 0) dds_return_loan(reader, samples, count);
+  dds_delete(reader);
+  return topics;
+}
+
+int tell_of_node(const std::string& name) {
+  const dds_entity_t participant = join();
+  dds_qos_t* qos = dds_create_qos();
+  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+  dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+  const dds_entity_t topic =
+      made(dds_create_topic(participant, &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc,
+                            "ros_discovery_info", nullptr, nullptr),
+           "topic");
+  const dds_entity_t reader = made(dds_create_reader(participant, topic, qos, nullptr), "reader");
+  dds_delete_qos(qos);
+  std::this_thread::sleep_for(std::chrono::seconds(3));  // until all has been found
+  void* sample = nullptr;
+  dds_sample_info_t info;
+  const auto end = Clock::now() + std::chrono::seconds(60);
+  while (dds_read(reader, &sample, &info, 1, 1) < 1) {
+    if (Clock::now() > end) fail("no node");
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+  const auto& told = *static_cast<const rmw_dds_common_msg_dds__ParticipantEntitiesInfo_*>(sample);
+  if (told.node_entities_info_seq._length != 1) fail("not one node");
+  const auto& node = told.node_entities_info_seq._buffer[0];
+  if (node.node_namespace + std::string(node.node_name) != name) fail("another node");
+  const auto print = [&](const char* what, const auto& gids, dds_entity_t builtin_topic) {
+    const auto topics = endpoints(participant, builtin_topic);
+    for (std::uint32_t n = 0; n < gids._length; ++n) {
+      const unsigned char* gid = gids._buffer[n].data;
+      // An endpoint's identifier begins as its participant's.
+      if (hex(gid).substr(0, 24) != hex(told.gid.data).substr(0, 24)) fail("another participant");
+      std::printf("%s %s\n", what, topics.at(hex(gid)).c_str());
+    }
+  };
+  print("publishes", node.writer_gid_seq, DDS_BUILTIN_TOPIC_DCPSPUBLICATION);
+  print("hears", node.reader_gid_seq, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION);
+  dds_return_loan(reader, &sample, 1);
+  dds_delete(participant);
+  return 0;
+}
+
 int churn(int count, const std::vector<std::string>& choices) {
   constexpr int kOfOneParticipant = 50;
   for (int done = 0; done < count;) {
@@ -230,9 +298,10 @@ int run(const std::vector<std::string>& words) {
   if (words.size() > 1 && words[0] == "read") return read_topics({words.begin() + 1, words.end()});
   if (words.size() == 5 && words[0] == "drive")
     return drive(words[1], words[2], std::stoi(words[3]), std::stoi(words[4]));
+  if (words.size() == 2 && words[0] == "nodes") return tell_of_node(words[1]);
   if (words.size() > 2 && words[0] == "churn")
     return churn(std::stoi(words[1]), {words.begin() + 2, words.end()});
-  fail("got other words, allowed read, drive and churn with theirs");
+  fail("got other words, allowed read, drive, nodes and churn with theirs");
 }
 
 }  // namespace

@@ -207,6 +207,19 @@ class Dds(unittest.TestCase):
         self.finish(sim)
         reader.finish()
 
+    def test_other_nodes_are_told_of_the_node_and_its_endpoints(self):
+        sim = self.sim("--duration", "60", "--rig-set", "clock_hz=10")
+        time.sleep(2)
+        peer = self.start(PEER, "nodes", "/swell_sim", stdout=subprocess.PIPE)
+        told, _ = peer.communicate(timeout=90)
+        self.assertEqual(peer.returncode, 0)
+        sim.terminate()
+        self.finish(sim)
+        topics = ("camera/camera_info", "camera/image_raw", "clock", "imu/data", "odom", "probe", "tf", "tf_static",
+                  "tip")
+        self.assertEqual(sorted(told.splitlines()),
+                         ["hears rt/boat/pose", *(f"publishes rt/{topic}" for topic in topics)])
+
     def test_lock_step_with_another_process_is_the_same_each_time(self):
         recordings = []
         for threads in (1, 2, 2):

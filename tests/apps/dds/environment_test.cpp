@@ -5,7 +5,9 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
+#include "apps/dds/node_info.h"
 #include "apps/shared/program.h"
 
 namespace swell::apps {
@@ -31,6 +33,30 @@ TEST(DdsEnvironment, IsTheSubnetOfDomain0UnlessItSaysOtherwise) {
   EXPECT_FALSE(says(plain, "Peer "));
   EXPECT_TRUE(says(plain, "<MaxAutoParticipantIndex>32<"));
   EXPECT_EQ(read({{"ROS_DOMAIN_ID", "232"}, {"ROS_LOCALHOST_ONLY", "0"}}).domain, 232u);
+}
+
+TEST(DdsEnvironment, HasShorterIdentifiersAfterHumble) {
+  EXPECT_EQ(read({}).gid_bytes, 24u);
+  EXPECT_EQ(read({{"ROS_DISTRO", "humble"}}).gid_bytes, 24u);
+  EXPECT_EQ(read({{"ROS_DISTRO", "jazzy"}}).gid_bytes, 16u);
+}
+
+TEST(NodeInfo, HasTheBytesThatAreWrittenByHand) {
+  NodeInfo node = {.name = "abc"};
+  node.participant.v[0] = 7;
+  node.writers.resize(1);
+  node.writers[0].v[15] = 9;
+  std::vector<std::uint8_t> expected = {0, 1, 0, 0, 7};
+  expected.resize(4 + 16);
+  const std::vector<std::uint8_t> middle = {1, 0, 0, 0,                     // nodes
+                                            2, 0, 0, 0, '/', 0,   0,   0,   // up to four bytes
+                                            4, 0, 0, 0, 'a', 'b', 'c', 0,   //
+                                            0, 0, 0, 0, 1,   0,   0,   0};  // readers, writers
+  expected.insert(expected.end(), middle.begin(), middle.end());
+  expected.resize(expected.size() + 15);
+  expected.push_back(9);
+  EXPECT_EQ(node_info_bytes(node, 16), expected);
+  EXPECT_EQ(node_info_bytes(node, 24).size(), expected.size() + 2 * 8);
 }
 
 TEST(DdsEnvironment, OfThisMachineAloneFindsNobodyElse) {
