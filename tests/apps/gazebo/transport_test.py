@@ -1,6 +1,7 @@
 """transport_test.py BIN SOURCE BUILD: what swell-sim publishes, takes and answers on Gazebo's transport, against its
 recordings and the Python package. The other end is gazebo_peer, a process of its own; packets stay on the loopback."""
 import base64
+import codecs
 import collections
 import json
 import math
@@ -287,8 +288,9 @@ class Transport(unittest.TestCase):
 
     @unittest.skipUnless((COMMANDS / "ign-transport-topic").exists(), "no ignition-transport-cli")
     def test_commands_for_shells_hear_and_ask(self):
+        path = self.folder / "run.mcap"
         run = sim(self, "--realtime", "--duration", "1000", "--rig-set", "clock_hz=20", "--rig-set",
-                  "camera[0].compressed=png")  # of which Gazebo has no message
+                  "camera[0].compressed=png", "--record", path)  # of which Gazebo has no message
 
         def command(name, *arguments):
             return subprocess.run([COMMANDS / f"ign-transport-{name}", *arguments], env=environment(), text=True,
@@ -304,7 +306,17 @@ class Transport(unittest.TestCase):
         state = command("service", "-s", "/water/sea_state", "--reqtype", "ignition.msgs.Empty", "--reptype",
                         "ignition.msgs.Param", "--timeout", "10000", "--req", "")
         self.assertRegex(state, r'key: "wind_speed_mps"\s+value \{\s+type: DOUBLE\s+double_value: 3\b')
+        shown = {topic: command("topic", "-e", "-n", "1", "-t", TOPICS[topic][0])
+                 for topic in ("/camera/image_raw", "/camera/depth")}
         self.assertIsNone(run.poll())
+        run.terminate()
+        self.assertEqual(run.wait(60), 0)
+        recorded = {(message.topic, message.t_ns): message.values for message in mcap_reader.read(path).messages}
+        for topic, text in shown.items():
+            sec, nsec = (re.search(rf"\b{unit}: (\d+)", text) for unit in ("sec", "nsec"))
+            t_ns = 10**9 * int(sec[1] if sec else 0) + int(nsec[1] if nsec else 0)
+            data = codecs.escape_decode(re.search('^data: "(.*)"$', text, re.MULTILINE)[1].encode())[0]
+            self.assertTrue(data == recorded[topic, t_ns]["data"], topic)
 
     def test_many_listeners_that_come_and_go_change_nothing(self):
         common = ("--duration", "8", "--realtime", "--record")
