@@ -303,6 +303,7 @@ void make_below(const PointsBelow& points, BelowFrame& below, Workers& workers) 
                                    [&](glm::dvec2 p) { return is_inside(window, p); });
     for (std::size_t rung = 0; rung < kRungs; ++rung) {
       if (!near[rung]) continue;
+      need_wake(below.surface->wakes, w, WakeFields::kHeights);
       const Wanted wanted = wanted_at(rung, points.parts, below.rungs[rung].has_window[w]);
       if (wanted.count > 0) make_window(w, rung, wanted, below, workers);
     }

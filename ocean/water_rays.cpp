@@ -315,7 +315,9 @@ FrameBounds frame_bounds(const WaterParts& water, const SeaFrame& frame,
     for (FrameBounds::Detail& detail : bounds.details)
       detail.steepest = std::max(detail.steepest, ground.all);
   }
-  for (const WakeWindow& window : frame.wakes.shown()) {
+  for (std::size_t w = 0; w < frame.wakes.count; ++w) {
+    need_wake(frame.wakes, w, WakeFields::kHeights);
+    const WakeWindow& window = frame.wakes.windows[w];
     bounds.wakes.push_back(bounds_by_squares(window, wake_fading_per_m(water, ground)));
     bounds.lowest_m -= bounds.wakes.back().height_m;
   }

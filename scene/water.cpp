@@ -36,11 +36,13 @@ Water::Water(const Scene& scene, int threads) {
 }
 
 WaterSurface Water::at(double t_s, ocean::SeaFrame& frame, Workers& workers,
-                       std::span<const ocean::Disturbance> more) const {
+                       std::span<const ocean::Disturbance> more,
+                       ocean::MakeWakes wakes_made) const {
   const ScopedFloatEnvironment ieee;
   const double gravity = sea().description().gravity_mps2;
   ocean::advance(sea(), t_s, frame, workers);
-  ocean::advance_wakes(parts_.disturbances, more, gravity, t_s, frame.wakes, workers, shore());
+  ocean::advance_wakes(parts_.disturbances, more, gravity, t_s, frame.wakes, workers, shore(),
+                       wakes_made);
   ocean::WakeBounds wakes = ocean::wake_bounds(parts_.disturbances, gravity);
   wakes.include(ocean::wake_bounds(more, gravity));
   return WaterSurface(

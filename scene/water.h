@@ -41,6 +41,7 @@
 #include "ocean/coast/surf_fronts.h"
 #include "ocean/open_sea/sea.h"
 #include "ocean/wakes/disturbance.h"
+#include "ocean/wakes/made_fields.h"
 #include "ocean/water_surface.h"
 #include "scene/scene.h"
 #include "terrain/height_grid.h"
@@ -75,9 +76,12 @@ class Water {
   explicit Water(Parts parts) : parts_(std::move(parts)) {}
 
   // Fills `frame` with the sea at any finite time, past or to come, and looks at it. `more`
-  // disturbs the water besides what the scene has, in this frame.
+  // disturbs the water besides what the scene has, in this frame. Where few points are asked, wakes
+  // that are made when they are asked take half of the time or less; the water, or the world that
+  // it is of, then has to outlive the frame's use.
   WaterSurface at(double t_s, ocean::SeaFrame& frame, Workers& workers,
-                  std::span<const ocean::Disturbance> more = {}) const;
+                  std::span<const ocean::Disturbance> more = {},
+                  ocean::MakeWakes wakes = ocean::MakeWakes::kNow) const;
 
   // Whether the sea or a sheet of its swash covers the ground at p_world, as pictures show it, at
   // the surface's time.

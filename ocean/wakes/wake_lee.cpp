@@ -47,7 +47,7 @@ float lee_spacing_m(const WakeWindow& window) {
 
 }  // namespace
 
-void size_lee(const terrain::ShoreMap* shore, WakeWindow& window) {
+void size_lee(const terrain::ShoreMap* shore, const WakeWindow& window) {
   window.lee.clear();
   if (!shore || !shore->has_line()) return;
   const glm::dvec2 middle = window.corner_m + 0.5 * window.length_m;
@@ -56,7 +56,7 @@ void size_lee(const terrain::ShoreMap* shore, WakeWindow& window) {
   window.lee.resize(kLeePoints * kLeePoints);
 }
 
-void find_lee(const terrain::ShoreMap& shore, std::size_t j, WakeWindow& window) {
+void find_lee(const terrain::ShoreMap& shore, std::size_t j, const WakeWindow& window) {
   const float spacing_m = lee_spacing_m(window);
   for (std::size_t i = 0; i < kLeePoints; ++i) {
     const glm::vec2 p = spacing_m * glm::vec2(i, j);

@@ -11,6 +11,11 @@
 #include "ocean/spectrum/fft.h"
 #include "ocean/spectrum/limits.h"
 #include "ocean/wakes/disturbance.h"
+#include "ocean/wakes/made_fields.h"
+
+namespace swell::terrain {
+class ShoreMap;
+}
 
 namespace swell::ocean {
 
@@ -47,9 +52,9 @@ struct WakeWindow {
   WakeHull hull;                       // of the stretches
   std::vector<WakeStretch> stretches;  // latest first, each as old as the one before ends
   std::vector<WakeRing> rings;         // oldest first
-  // What advance_wakes() makes of them.
-  std::vector<float> height_m, slope_x, slope_y, foam;
-  std::vector<float> lee;  // what land leaves of them (wake_lee.h); empty: all
+  // What wakes.h makes of them, of a frame that waits to be asked through a const one too.
+  mutable std::vector<float> height_m, slope_x, slope_y, foam;
+  mutable std::vector<float> lee;  // what land leaves of them (wake_lee.h); empty: all
 };
 
 // A ring in the world.
@@ -67,8 +72,10 @@ struct WakeFrame {
   std::size_t count = 0;
   std::vector<const Disturbance*> order;  // storage
   std::vector<TimedRing> rings;           // storage
-  std::vector<float> fft_planes;
+  mutable std::vector<float> fft_planes;  // storage
   FftPlan plan;
+  const terrain::ShoreMap* shore = nullptr;  // as advance_wakes() had it
+  MadeFields made;
 
   std::span<const WakeWindow> shown() const { return {windows.data(), count}; }
 };

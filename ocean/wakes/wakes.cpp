@@ -13,22 +13,21 @@ namespace {
 
 constexpr std::size_t kWindowSide = kWakeSamples, kAll = kWindowSide * kWindowSide;
 
-// All windows' fields, as heights.
-void transform_windows(WakeField field, std::span<const WakeWindow> sources, WakeFrame& frame,
-                       Workers& workers) {
-  if (frame.plan.size == 0) frame.plan = make_fft_plan(kWakeSamples);
+using Windows = std::span<const WakeWindow>;
+
+// The sources' fields, as heights of the windows.
+void transform_windows(WakeField field, Windows sources, Windows windows, const FftPlan& plan,
+                       std::vector<float>& planes, Workers& workers) {
   std::array<FftOutput, kMostWakeWindows> outputs;
-  for (std::size_t w = 0; w < frame.count; ++w) {
-    frame.windows[w].height_m.resize(kAll);
-    outputs[w] = {frame.windows[w].height_m.data(), nullptr};
-  }
+  for (std::size_t w = 0; w < windows.size(); ++w)
+    outputs[w] = {windows[w].height_m.data(), nullptr};
   inverse_fft_2d(
-      frame.plan,
+      plan,
       [&](int transform, int column0, float* re, float* im) {
-        return fill_wake(sources[static_cast<std::size_t>(transform)], field, frame.plan, column0,
-                         re, im);
+        return fill_wake(sources[static_cast<std::size_t>(transform)], field, plan, column0, re,
+                         im);
       },
-      {outputs.data(), frame.count}, frame.fft_planes, workers);
+      {outputs.data(), windows.size()}, planes, workers);
 }
 
 // By row or column: 1 in the middle, 0 at the first and the last sample.
@@ -42,7 +41,7 @@ constexpr std::array<float, kWindowSide> kRim = [] {
   return rim;
 }();
 
-void fade_row(std::size_t j, WakeWindow& window) {
+void fade_row(std::size_t j, const WakeWindow& window) {
   const float row = kRim[j], bound_m = window.bound_m;
   const auto z = std::span(window.height_m).subspan(j * kWindowSide, kWindowSide);
   put_in_lee(window, j, z);
@@ -52,7 +51,7 @@ void fade_row(std::size_t j, WakeWindow& window) {
 
 // Differences over five samples: exact to 2 % for waves of eight samples. None at the border, where
 // there are no waves.
-void slope_row(std::size_t j, WakeWindow& window) {
+void slope_row(std::size_t j, const WakeWindow& window) {
   const float near = static_cast<float>(2.0 / 3.0 * kWakeSamples / window.length_m);
   const float far = -0.125f * near;
   float* const slope_x = window.slope_x.data() + j * kWindowSide;
@@ -138,7 +137,7 @@ bool add_breaking(std::size_t j, const WakeWindow& window, std::span<float> foam
   return true;
 }
 
-void foam_row(std::size_t j, WakeWindow& window) {
+void foam_row(std::size_t j, const WakeWindow& window) {
   const auto row = std::span(window.foam).subspan(j * kWindowSide, kWindowSide);
   std::ranges::fill(row, 0.0f);
   if (window.stretches.empty()) return;
@@ -152,13 +151,32 @@ void foam_row(std::size_t j, WakeWindow& window) {
   put_in_lee(window, j, row);
 }
 
-void for_all_rows(WakeFrame& frame, Workers& workers,
-                  FunctionRef<void(std::size_t, WakeWindow&)> body) {
+// ---- All of windows
+
+void for_all_rows(Windows windows, Workers& workers,
+                  FunctionRef<void(std::size_t, const WakeWindow&)> body) {
   constexpr std::size_t kRows = 32;  // a task
-  workers.for_each(frame.count * (kWindowSide / kRows), [&](std::size_t task, int) {
-    WakeWindow& window = frame.windows[task / (kWindowSide / kRows)];
+  workers.for_each(windows.size() * (kWindowSide / kRows), [&](std::size_t task, int) {
+    const WakeWindow& window = windows[task / (kWindowSide / kRows)];
     const std::size_t first = task % (kWindowSide / kRows) * kRows;
     for (std::size_t j = first; j < first + kRows; ++j) body(j, window);
+  });
+}
+
+void make_heights(const WakeFrame& frame, Windows windows, Workers& workers) {
+  for (const WakeWindow& window : windows) size_lee(frame.shore, window);
+  workers.for_each(windows.size() * kLeePoints, [&](std::size_t row, int) {
+    const WakeWindow& window = windows[row / kLeePoints];
+    if (!window.lee.empty()) find_lee(*frame.shore, row % kLeePoints, window);
+  });
+  transform_windows(WakeField::kHeight, windows, windows, frame.plan, frame.fft_planes, workers);
+  for_all_rows(windows, workers, [](std::size_t j, const WakeWindow& w) { fade_row(j, w); });
+}
+
+void make_slopes_and_foam(Windows windows, Workers& workers) {
+  for_all_rows(windows, workers, [](std::size_t j, const WakeWindow& window) {
+    slope_row(j, window);
+    foam_row(j, window);
   });
 }
 
@@ -186,6 +204,18 @@ void for_points_inside(const WakeWindow& window, std::span<const glm::dvec2> p_w
   }
 }
 
+// Calls visit(window) for the windows that hold some of the points, once these fields are there.
+template <class Visit>
+void for_windows_around(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
+                        WakeFields wanted, const Visit& visit) {
+  for (std::size_t w = 0; w < frame.count; ++w) {
+    const WakeWindow& window = frame.windows[w];
+    if (!std::ranges::any_of(p_world, [&](glm::dvec2 p) { return is_inside(window, p); })) continue;
+    need_wake(frame, w, wanted);
+    visit(window);
+  }
+}
+
 float window_value(const std::vector<float>& field, std::size_t at, glm::vec2 t) {
   const float low = field[at] + t.x * (field[at + 1] - field[at]);
   const float high =
@@ -197,24 +227,28 @@ float window_value(const std::vector<float>& field, std::size_t at, glm::vec2 t)
 
 void advance_wakes(std::span<const Disturbance> some, std::span<const Disturbance> others,
                    double gravity_mps2, double t_s, WakeFrame& frame, Workers& workers,
-                   const terrain::ShoreMap* shore) {
+                   const terrain::ShoreMap* shore, MakeWakes when) {
   SWELL_CHECK(std::isfinite(t_s), "t_s={}", t_s);
   find_wake_sources(some, others, gravity_mps2, t_s, frame);
   if (frame.count == 0) return;
-  for (std::size_t w = 0; w < frame.count; ++w)
-    for (auto* field :
-         {&frame.windows[w].slope_x, &frame.windows[w].slope_y, &frame.windows[w].foam})
+  if (frame.plan.size == 0) frame.plan = make_fft_plan(kWakeSamples);
+  frame.shore = shore;
+  for (const WakeWindow& window : frame.shown())
+    for (auto* field : {&window.height_m, &window.slope_x, &window.slope_y, &window.foam})
       field->resize(kAll);
-  for (std::size_t w = 0; w < frame.count; ++w) size_lee(shore, frame.windows[w]);
-  workers.for_each(frame.count * kLeePoints, [&](std::size_t row, int) {
-    WakeWindow& window = frame.windows[row / kLeePoints];
-    if (!window.lee.empty()) find_lee(*shore, row % kLeePoints, window);
-  });
-  transform_windows(WakeField::kHeight, frame.shown(), frame, workers);
-  for_all_rows(frame, workers, [](std::size_t j, WakeWindow& window) { fade_row(j, window); });
-  for_all_rows(frame, workers, [](std::size_t j, WakeWindow& window) {
-    slope_row(j, window);
-    foam_row(j, window);
+  frame.made.begin(when == MakeWakes::kNow ? WakeFields::kAll : WakeFields::kNone);
+  if (when == MakeWakes::kWhenAsked) return;
+  make_heights(frame, frame.shown(), workers);
+  make_slopes_and_foam(frame.shown(), workers);
+}
+
+void need_wake(const WakeFrame& frame, std::size_t window, WakeFields wanted) {
+  frame.made.need(window, wanted, [&](WakeFields made) {
+    // Not by the caller's threads: who waits for one of them could be given a body that asks, too.
+    Workers alone(1);
+    const Windows one = frame.shown().subspan(window, 1);
+    if (made == WakeFields::kNone) make_heights(frame, one, alone);
+    if (wanted == WakeFields::kAll) make_slopes_and_foam(one, alone);
   });
 }
 
@@ -224,13 +258,18 @@ void advance_wake_velocity(const WakeFrame& wakes, WakeField field, WakeFrame& v
   if (wakes.count == 0) return;
   if (velocity.windows.size() < wakes.count) velocity.windows.resize(wakes.count);
   for (std::size_t w = 0; w < wakes.count; ++w) {
+    need_wake(wakes, w, WakeFields::kHeights);  // its lee
+    velocity.windows[w].height_m.resize(kAll);
     velocity.windows[w].corner_m = wakes.windows[w].corner_m;
     velocity.windows[w].length_m = wakes.windows[w].length_m;
     velocity.windows[w].bound_m = HUGE_VALF;
     velocity.windows[w].lee = wakes.windows[w].lee;
   }
-  transform_windows(field, wakes.shown(), velocity, workers);
-  for_all_rows(velocity, workers, [](std::size_t j, WakeWindow& window) { fade_row(j, window); });
+  if (velocity.plan.size == 0) velocity.plan = make_fft_plan(kWakeSamples);
+  transform_windows(field, wakes.shown(), velocity.shown(), velocity.plan, velocity.fft_planes,
+                    workers);
+  for_all_rows(velocity.shown(), workers,
+               [](std::size_t j, const WakeWindow& w) { fade_row(j, w); });
 }
 
 // Between samples heights are bilinear: steepest along the edges of a cell.
@@ -258,24 +297,28 @@ void add_window_heights(const WakeWindow& window, std::span<const glm::dvec2> p_
 
 void add_wake_heights(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
                       std::span<float> height_m) {
-  for (const WakeWindow& window : frame.shown()) add_window_heights(window, p_world, height_m);
+  for_windows_around(frame, p_world, WakeFields::kHeights, [&](const WakeWindow& window) {
+    add_window_heights(window, p_world, height_m);
+  });
 }
 
 void add_wake_slopes(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
                      std::span<glm::vec2> slope) {
-  for (const WakeWindow& window : frame.shown())
+  for_windows_around(frame, p_world, WakeFields::kAll, [&](const WakeWindow& window) {
     for_points_inside(window, p_world, [&](std::size_t n, std::size_t at, glm::vec2 t) {
       slope[n] +=
           glm::vec2(window_value(window.slope_x, at, t), window_value(window.slope_y, at, t));
     });
+  });
 }
 
 void add_wake_foam(const WakeFrame& frame, std::span<const glm::dvec2> p_world,
                    std::span<float> foam) {
-  for (const WakeWindow& window : frame.shown())
+  for_windows_around(frame, p_world, WakeFields::kAll, [&](const WakeWindow& window) {
     for_points_inside(window, p_world, [&](std::size_t n, std::size_t at, glm::vec2 t) {
       foam[n] = std::max(foam[n], window_value(window.foam, at, t));
     });
+  });
 }
 
 bool is_inside(const WakeWindow& window, glm::dvec2 p_world) {

@@ -8,6 +8,7 @@
 // surface tension, which holds ripples shorter than 2 cm together; what land throws back.
 #pragma once
 
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <span>
 
@@ -22,10 +23,14 @@ namespace swell::ocean {
 // Fills `frame` with both lists' waves at t_s, finite. Allocates nothing once it has been filled
 // with as much. A hull's window takes 0.6 to 0.8 ms on one thread, that of a ring 0.3 ms and 0.02
 // ms for each ring more; without disturbances nothing. Waves steeper than kMostWakeSlope are laid
-// down. shore: of the land; null: there is none.
+// down. shore: of the land; null: there is none. It has to outlive a frame that waits to be asked.
 void advance_wakes(std::span<const Disturbance> some, std::span<const Disturbance> others,
                    double gravity_mps2, double t_s, WakeFrame& frame, Workers& workers,
-                   const terrain::ShoreMap* shore = nullptr);
+                   const terrain::ShoreMap* shore = nullptr, MakeWakes when = MakeWakes::kNow);
+
+// For those who read a window's fields themselves: makes those that are wanted if they are not
+// there yet. Many threads may ask at once.
+void need_wake(const WakeFrame& frame, std::size_t window, WakeFields wanted);
 
 // What a window's heights stay within between samples `low` and `high`, in [0, kWakeSamples), their
 // wavelength aside. 0.1 ms for all.
