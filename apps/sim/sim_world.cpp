@@ -21,7 +21,8 @@ const ocean::WaterSurface& SimWorld::water_at(const Moment& moment) {
     if (kept.surface && kept.t_ns == moment.t_ns) return *kept.surface;
   KeptWater& kept = kept_[next_];
   next_ = (next_ + 1) % kKept;
-  kept.surface.emplace(water_.at(moment.t_s(), kept.sea, workers_));
+  kept.surface.emplace(
+      water_.at(moment.t_s(), kept.sea, workers_, {}, ocean::MakeWakes::kWhenAsked));
   kept.t_ns = moment.t_ns;
   return *kept.surface;
 }
