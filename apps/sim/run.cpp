@@ -2,15 +2,20 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <thread>
+#include <utility>
+#include <vector>
+
+#include "apps/sim/message_queue.h"
 
 namespace swell::apps {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = Pace::Clock;
 
 constexpr std::chrono::milliseconds kLongestSleep{50};
-constexpr std::int64_t kAhead_ns = 1'000'000'000;
+constexpr std::int64_t kLookAhead_ns = 1'000'000'000;  // for poses
 
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -26,7 +31,11 @@ class Run {
         outputs_(outputs),
         inputs_(inputs),
         poses_(poses),
-        is_stopped_(is_stopped) {
+        is_stopped_(is_stopped),
+        start_(Clock::now() + std::chrono::nanoseconds(settings.ahead_ns)),
+        queue_(outputs,
+               settings.realtime ? std::optional(Pace{start_, settings.first_ns}) : std::nullopt,
+               settings.measure, simulation.sources.size()) {
     costs_.sources.resize(simulation.sources.size());
   }
 
@@ -36,6 +45,7 @@ class Run {
     else
       follow_own_clock();
     for (MessageOutput* output : outputs_) output->finish();
+    costs_.given = queue_.given();
     costs_.wall_s = ms_since(start_) / 1e3;
     return costs_;
   }
@@ -56,25 +66,31 @@ class Run {
       costs_.duration_s = before_s + Moment{tick.t_ns - first_ns}.t_s();
       if (schedule.ends_at(tick.t_ns)) break;
     }
+    queue_.finish(false);
   }
 
   void follow_own_clock() {
-    Schedule schedule(simulation_.sources, settings_.duration_s);
+    const std::int64_t first_ns = settings_.first_ns;
+    Schedule schedule(simulation_.sources, settings_.duration_s, first_ns);
+    bool has_begun = false;
     for (Schedule::Due due; schedule.next(due);) {
-      if (settings_.realtime) sleep_until(start_ + std::chrono::nanoseconds(due.stamp_ns));
+      if (settings_.realtime) sleep_until(due.stamp_ns - settings_.ahead_ns);
       if (is_stopped_()) break;
       inputs_.take_poses(poses_);
-      poses_.set_horizon({due.stamp_ns + kAhead_ns});
-      if (due.stamp_ns == 0) tell_waiting({0});
+      poses_.set_horizon({due.stamp_ns + kLookAhead_ns});
+      if (!std::exchange(has_begun, true)) tell_waiting({due.stamp_ns});
       publish(due);
-      costs_.duration_s = Moment{due.stamp_ns}.t_s();
     }
-    if (!is_stopped_()) costs_.duration_s = settings_.duration_s;
+    const bool is_stopped = is_stopped_();
+    queue_.finish(is_stopped);
+    costs_.duration_s =
+        is_stopped ? Moment{queue_.given().last_stamp_ns - first_ns}.t_s() : settings_.duration_s;
   }
 
-  void sleep_until(Clock::time_point stamp) const {
-    for (auto now = Clock::now(); now < stamp && !is_stopped_(); now = Clock::now())
-      std::this_thread::sleep_for(std::min<Clock::duration>(stamp - now, kLongestSleep));
+  void sleep_until(std::int64_t stamp_ns) const {
+    const Clock::time_point moment = Pace{start_, settings_.first_ns}.time_of(stamp_ns);
+    for (auto now = Clock::now(); now < moment && !is_stopped_(); now = Clock::now())
+      std::this_thread::sleep_for(std::min<Clock::duration>(moment - now, kLongestSleep));
   }
 
   void tell_waiting(const Moment& moment) {
@@ -83,17 +99,14 @@ class Run {
   }
 
   void publish(const Schedule::Due& due) {
-    const double output_before_ms = costs_.output.sum_ms;
     const Clock::time_point begin = Clock::now();
-    const auto emit = [&](std::size_t topic, const msg::Message& message) {
-      const Clock::time_point given = Clock::now();
-      for (MessageOutput* output : outputs_) output->write(topic, due.stamp_ns, message);
-      if (!outputs_.empty()) costs_.output.add(ms_since(given));
-      if (settings_.realtime && settings_.measure)
-        costs_.late_ms.push_back(ms_since(start_ + std::chrono::nanoseconds(due.stamp_ns)));
+    const auto emit = [&](std::size_t topic, msg::Message message) {
+      made_.push_back({due.source, topic, due.stamp_ns, std::move(message)});
     };
     simulation_.sources[due.source].publish({due.stamp_ns}, emit);
-    costs_.sources[due.source].add(ms_since(begin) - (costs_.output.sum_ms - output_before_ms));
+    costs_.sources[due.source].add(ms_since(begin));
+    for (QueuedMessage& message : made_) queue_.put(std::move(message));
+    made_.clear();
   }
 
   const Simulation& simulation_;
@@ -102,7 +115,9 @@ class Run {
   Inputs& inputs_;
   InputPoses& poses_;
   FunctionRef<bool()> is_stopped_;
-  Clock::time_point start_ = Clock::now();
+  Clock::time_point start_;
+  MessageQueue queue_;
+  std::vector<QueuedMessage> made_;  // of one source at one stamp
   Costs costs_;
 };
 

@@ -143,18 +143,21 @@ Publish pose_sensor(const Sensor& sensor, SimWorld& world, Simulation& simulatio
   };
 }
 
-// What makes a kind's messages: it adds its topics.
-using Maker = Publish (*)(const Sensor&, SimWorld&, Simulation&);
+// What makes a kind's messages: it adds its topics. Those that are slow come last of a moment.
+struct Maker {
+  Publish (*make)(const Sensor&, SimWorld&, Simulation&);
+  bool is_slow = false;
+};
 constexpr auto kMakers = enum_table<SensorKind, Maker>({
-    {SensorKind::kCamera, camera},
-    {SensorKind::kLidar, lidar},
-    {SensorKind::kAltimeter, range_sensor},
-    {SensorKind::kEchoSounder, range_sensor},
-    {SensorKind::kWaveProbe, wave_probe},
-    {SensorKind::kImu, imu},
-    {SensorKind::kGnss, gnss},
-    {SensorKind::kOdometry, odometry},
-    {SensorKind::kPose, pose_sensor},
+    {SensorKind::kCamera, {camera, true}},
+    {SensorKind::kLidar, {lidar, true}},
+    {SensorKind::kAltimeter, {range_sensor}},
+    {SensorKind::kEchoSounder, {range_sensor}},
+    {SensorKind::kWaveProbe, {wave_probe}},
+    {SensorKind::kImu, {imu}},
+    {SensorKind::kGnss, {gnss}},
+    {SensorKind::kOdometry, {odometry}},
+    {SensorKind::kPose, {pose_sensor}},
 });
 
 // What is on a body publishes nothing while its pose is not known.
@@ -163,6 +166,17 @@ Publish once_known(const RigBody* body, const SimWorld& world, Publish publish) 
   return [body, &world, publish = std::move(publish)](const Moment& moment, const Emit& emit) {
     if (world.knows(*body, moment)) publish(moment, emit);
   };
+}
+
+void add_sensors(bool slow, SimWorld& world, Simulation& simulation) {
+  const Rig& rig = world.rig();
+  for (const Sensor& sensor : rig.sensors) {
+    if (kMakers[sensor.kind].is_slow != slow) continue;
+    Publish publish = once_known(rig.find_body(sensor.body), world,
+                                 kMakers[sensor.kind].make(sensor, world, simulation));
+    simulation.sources.push_back(
+        {sensor.name, scene::kSensorKinds[sensor.kind].name, sensor.rate_hz, std::move(publish)});
+  }
 }
 
 // ---- Frames and the clock
@@ -219,12 +233,8 @@ Simulation make_simulation(SimWorld& world) {
   Simulation simulation;
   add_clock(rig, simulation);
   add_frames(world, simulation);
-  for (const Sensor& sensor : rig.sensors) {
-    Publish publish = once_known(rig.find_body(sensor.body), world,
-                                 kMakers[sensor.kind](sensor, world, simulation));
-    simulation.sources.push_back(
-        {sensor.name, scene::kSensorKinds[sensor.kind].name, sensor.rate_hz, std::move(publish)});
-  }
+  add_sensors(false, world, simulation);
+  add_sensors(true, world, simulation);
   return simulation;
 }
 

@@ -21,7 +21,7 @@ struct Moment {
   msg::Time stamp() const { return msg::Time::of_ns(t_ns); }
 };
 
-using Emit = FunctionRef<void(std::size_t topic, const msg::Message& message)>;
+using Emit = FunctionRef<void(std::size_t topic, msg::Message message)>;
 using Publish = std::function<void(const Moment& moment, const Emit& emit)>;
 
 // Something that publishes: a sensor, a body's pose, the clock.

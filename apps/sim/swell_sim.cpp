@@ -55,6 +55,9 @@ void check_inputs(const SimOptions& options, const scene::Rig& rig) {
           "got \"input\" without --inputs, --dds on or --gazebo on, allowed with one");
 }
 
+// Longer than all sensors of one moment take.
+constexpr std::int64_t kAhead_ns = 200'000'000;
+
 std::vector<std::unique_ptr<Transport>> open_transports(const SimOptions& options) {
   std::vector<std::unique_ptr<Transport>> transports;
   if (options.dds) transports.push_back(open_dds(options.run.is_clock_input));
@@ -100,11 +103,13 @@ void run(const SimOptions& options) {
   take_signals();
   std::vector<MessageOutput*> all_outputs;
   for (const auto& output : outputs) all_outputs.push_back(output.get());
-  const Costs costs = run_simulation(simulation, options.run, all_outputs, inputs, poses,
+  RunSettings settings = options.run;
+  if (sources.empty()) settings.ahead_ns = kAhead_ns;
+  const Costs costs = run_simulation(simulation, settings, all_outputs, inputs, poses,
                                      [] { return is_signalled.load(); });
   if (options.run.measure) fmt::print("{}", cost_table(simulation, costs));
   if (!options.record.empty())
-    fmt::print("{}: {} messages of {} topics, {} s\n", options.record, costs.output.count,
+    fmt::print("{}: {} messages of {} topics, {} s\n", options.record, costs.given.cost.count,
                simulation.topics.size(), costs.duration_s);
 }
 
