@@ -13,7 +13,8 @@ constexpr double kNotGiven_s = 0.0;
 void complete(SimOptions& options) {
   RunSettings& run = options.run;
   const bool is_endless = run.is_clock_input || options.has_transport();
-  if (options.has_transport() && !run.is_clock_input) run.realtime = true;
+  if ((options.has_transport() && !run.is_clock_input) || options.is_system_clock)
+    run.realtime = true;
   if (run.duration_s == kNotGiven_s)
     run.duration_s = is_endless ? std::numeric_limits<double>::infinity() : 10.0;
 }
@@ -32,9 +33,11 @@ void check_together(const SimOptions& options) {
         "one");
   if (options.run.is_clock_input && options.run.realtime)
     throw OptionError("command line: --realtime: got --clock input with it, allowed --clock own");
-  if (!options.inputs.empty() && !options.run.is_clock_input && !options.run.realtime)
+  if (!options.inputs.empty() && !options.run.is_clock_input && !options.is_system_clock &&
+      !options.run.realtime)
     throw OptionError(
-        "command line: --inputs: got neither --clock input nor --realtime, allowed one of them");
+        "command line: --inputs: got neither --clock input or system nor --realtime, allowed one "
+        "of them");
 }
 
 // An option that is one word or, which is true, the other.
@@ -47,6 +50,13 @@ CommandLine::Value one_of_two(const std::string& name, const std::string& kind,
                                 " or " + yes);
             is_yes = text == yes;
           }};
+}
+
+void take_clock(const std::string& text, SimOptions& options) {
+  if (text != "own" && text != "input" && text != "system")
+    throw OptionError("command line: --clock: got '" + text + "', allowed own, input or system");
+  options.run.is_clock_input = text == "input";
+  options.is_system_clock = text == "system";
 }
 
 }  // namespace
@@ -63,8 +73,9 @@ std::optional<SimOptions> parse_sim_options(int argc, char** argv) {
   add_number(line, "--duration", options.run.duration_s, 1e-3, 1e6,
              "Seconds, from 0 on: 10; endless with --clock input, --dds on, --gazebo on");
   line.add_flag("--realtime", options.run.realtime, "Wait for each stamp");
-  line.add_value(one_of_two("--clock", "CLOCK", "own", "input", options.run.is_clock_input,
-                            "own, or input: lock-step with /clock or --inputs"));
+  line.add_value({"--clock", "CLOCK", "own",
+                  "own; input: lock-step with /clock or --inputs; system: UTC",
+                  [&](const std::string& text) { take_clock(text, options); }});
   line.add_text("--inputs", "FILE", options.inputs,
                 "Clock and poses (--rig-keys); - is standard input");
   line.add_value(one_of_two("--dds", "WHETHER", "off", "on", options.dds,

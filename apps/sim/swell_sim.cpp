@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -58,6 +59,12 @@ void check_inputs(const SimOptions& options, const scene::Rig& rig) {
 // Longer than all sensors of one moment take.
 constexpr std::int64_t kAhead_ns = 200'000'000;
 
+std::int64_t system_clock_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
 std::vector<std::unique_ptr<Transport>> open_transports(const SimOptions& options) {
   std::vector<std::unique_ptr<Transport>> transports;
   if (options.dds) transports.push_back(open_dds(options.run.is_clock_input));
@@ -67,7 +74,8 @@ std::vector<std::unique_ptr<Transport>> open_transports(const SimOptions& option
 
 void run(const SimOptions& options) {
   if (options.rig_keys) {
-    fmt::print("{}{}{}{}", scene::rig_keys_text(), kJsonInputsText, kRosInputsText, kGazeboText);
+    fmt::print("{}{}{}{}{}", scene::rig_keys_text(), kClocksText, kJsonInputsText, kRosInputsText,
+               kGazeboText);
     return;
   }
   select_simd(options.simd);
@@ -76,7 +84,8 @@ void run(const SimOptions& options) {
   const std::vector<std::unique_ptr<Transport>> transports = open_transports(options);
   scene::Rig rig = scene::load_rig(options.rig, options.rig_settings);
   check_inputs(options, rig);
-  if (options.run.is_clock_input) rig.clock_hz = 0.0;  // another publishes it
+  if (options.run.is_clock_input || options.is_system_clock)
+    rig.clock_hz = 0.0;  // another publishes it, or nobody
   scene::Scene scene = load_scene(options.scene);
   scene::check_mounts(rig, scene);
   const render::World world(std::move(scene), options.threads);
@@ -105,6 +114,7 @@ void run(const SimOptions& options) {
   for (const auto& output : outputs) all_outputs.push_back(output.get());
   RunSettings settings = options.run;
   if (sources.empty()) settings.ahead_ns = kAhead_ns;
+  if (options.is_system_clock) settings.first_ns = system_clock_ns() + settings.ahead_ns;
   const Costs costs = run_simulation(simulation, settings, all_outputs, inputs, poses,
                                      [] { return is_signalled.load(); });
   if (options.run.measure) fmt::print("{}", cost_table(simulation, costs));

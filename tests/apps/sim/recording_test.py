@@ -48,6 +48,14 @@ def run(*arguments):
     return subprocess.run([BIN / "swell-sim", *map(str, arguments)], capture_output=True, text=True, check=False)
 
 
+def values_by_topic(path):
+    """{topic: [(stamp, values)]} of a recording."""
+    topics = collections.defaultdict(list)
+    for message in mcap_reader.read(path).messages:
+        topics[message.topic].append((message.t_ns, message.values))
+    return topics
+
+
 class Recording(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
@@ -203,6 +211,22 @@ class Recording(unittest.TestCase):
             self.assertTrue(done.stderr.startswith("error: "))
             self.assertIn(words, done.stderr)
         self.assertEqual(list(self.folder.iterdir()), [rig])
+
+    def test_stamps_of_the_systems_clock_are_utc_and_their_messages_of_that_time(self):
+        before = time.time_ns()
+        live = self.record("live.mcap", *SMALL, "--clock", "system", "--duration", "0.3")
+        topics = values_by_topic(live)
+        self.assertNotIn("/clock", topics)
+        stamps = sorted(stamp for stamp, _ in sum(topics.values(), []))
+        self.assertGreater(stamps[0], before)
+        self.assertLess(stamps[-1], time.time_ns())
+        self.assertTrue(all(stamp % 10_000_000 == 0 for stamp, _ in topics["/bow_wave"]))
+        self.assertIn(len(topics["/bow_wave"]), (29, 30, 31))
+        # The same in lock-step with a clock that shows these times.
+        lines = self.folder / "clock.jsonl"
+        lines.write_text("".join(f'{{"clock_ns": {stamp}}}\n' for stamp in sorted(set(stamps))))
+        again = self.record("again.mcap", *SMALL, "--clock", "input", "--inputs", lines)
+        self.assertEqual(values_by_topic(again), topics)
 
     def test_measure_tells_what_each_sensor_costs(self):
         done = run("--scene", SCENE, "--rig", RIG, *SMALL, "--measure", "--duration", "0.2", "--realtime")
