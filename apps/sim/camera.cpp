@@ -116,10 +116,13 @@ class CameraSensor {
                           width_px_, height_px_);
     view.projection = projection_;
     const std::vector<scene::GivenPose> given = world_.given_poses(moment);
+    const std::vector<ocean::Disturbance> disturbances = world_.disturbances(moment);
     options_.poses = given;
+    options_.disturbances = disturbances;
     render::render_frame(world_.world(), view, moment.t_s(), options_, workspace_, target_,
                          world_.workers());
     options_.poses = {};
+    options_.disturbances = {};
   }
 
   void publish_picture(const ImageHead& head, const Emit& emit) const {

@@ -60,6 +60,14 @@ void Inputs::put_pose(const InputOrigin& from, std::string_view frame, const Sta
   put({"", std::string(frame), normal});
 }
 
+void Inputs::put_disturbance(const InputOrigin& from, const StampedDisturbance& disturbance) {
+  if (!is_time(disturbance.stamp_ns))
+    tell(from, fmt::format("a disturbance, got the stamp {} ns, allowed 0 to 2^31 s",
+                           disturbance.stamp_ns));
+  else
+    put({"", "", {}, disturbance});
+}
+
 void Inputs::refuse(const InputOrigin& from, const std::string& what) { tell(from, what); }
 
 void Inputs::begin() {
@@ -96,7 +104,7 @@ bool Inputs::take(Event& event) {
 }
 
 bool Inputs::next_tick(Tick& tick, InputPoses& poses, FunctionRef<bool()> is_stopped) {
-  std::vector<Event> come;  // poses since the last tick
+  std::vector<Event> come;  // since the last tick
   std::unique_lock lock(mutex_);
   for (Event event; !is_stopped();) {
     if (!take(event)) {
@@ -104,7 +112,7 @@ bool Inputs::next_tick(Tick& tick, InputPoses& poses, FunctionRef<bool()> is_sto
       has_come_.wait_for(lock, std::chrono::milliseconds(50));
       continue;
     }
-    if (!event.frame.empty()) {
+    if (!event.is_clock()) {
       come.push_back(std::move(event));
       continue;
     }
@@ -116,10 +124,12 @@ bool Inputs::next_tick(Tick& tick, InputPoses& poses, FunctionRef<bool()> is_sto
                 fmt::format("note: {}: jumped from {} s to {} s; starting again there", event.topic,
                             Moment{*clock_ns_}.t_s(), Moment{t_ns}.t_s()));
       poses.forget_all();
+      disturbances_.forget_all();
     }
-    for (const Event& pose : come)
-      if (!jumps || pose.pose.stamp_ns <= t_ns) poses.add(pose.frame, pose.pose);
+    for (const Event& other : come)
+      if (!jumps || other.stamp_ns() <= t_ns) keep(other, poses);
     poses.set_horizon({t_ns});
+    disturbances_.set_horizon({t_ns});
     tick = {t_ns, !clock_ns_ || jumps};
     clock_ns_ = t_ns;
     return true;
@@ -127,10 +137,19 @@ bool Inputs::next_tick(Tick& tick, InputPoses& poses, FunctionRef<bool()> is_sto
   return false;
 }
 
-void Inputs::take_poses(InputPoses& poses) {
+void Inputs::take_all(InputPoses& poses, const Moment& horizon) {
   const std::lock_guard lock(mutex_);
   for (Event event; take(event);)
-    if (!event.frame.empty()) poses.add(event.frame, event.pose);
+    if (!event.is_clock()) keep(event, poses);
+  poses.set_horizon(horizon);
+  disturbances_.set_horizon(horizon);
+}
+
+void Inputs::keep(const Event& event, InputPoses& poses) {
+  if (event.disturbance)
+    disturbances_.add(*event.disturbance);
+  else
+    poses.add(event.frame, event.pose);
 }
 
 void Inputs::tell_waiting(std::string_view frame) {

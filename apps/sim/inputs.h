@@ -1,4 +1,5 @@
-// What comes into a simulation from outside: the clock, and poses of bodies. Transports put it in
+// What comes into a simulation from outside: the clock, poses of bodies, and what disturbs the
+// water. Transports put it in
 // from threads of their own; the loop takes it out in the order in which it came, so that a run
 // depends on this order and on what came alone.
 //
@@ -18,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/sim/input_disturbances.h"
 #include "apps/sim/input_poses.h"
 #include "math/parallel.h"
 
@@ -48,6 +50,10 @@ class Inputs {
   // within 1 %, stamped from 0 to 2^31 s. Put those of a time before the clock of that time.
   void put_pose(const InputOrigin& from, std::string_view frame, const StampedPose& pose);
 
+  // A drop, a footstep or a rotor, stamped as poses are, with values that scenes allow. Put those
+  // of a time before the clock of that time.
+  void put_disturbance(const InputOrigin& from, const StampedDisturbance& disturbance);
+
   // Says what is wrong with something that could not be read.
   void refuse(const InputOrigin& from, const std::string& what);
 
@@ -64,15 +70,18 @@ class Inputs {
     bool is_start = false;  // the first one, or after a jump
   };
 
-  // Waits for the next time that the clock shows and adds the poses that came before it, up to
-  // which they are looked at. A clock that goes back, or ahead by more than 10 s, starts again
-  // there as simulators do at a reset: poses from before are forgotten, those that came since stay
-  // if they are of this time or before. One line says so the first time. False at the end of all
+  // Waits for the next time that the clock shows and adds the poses and disturbances that came
+  // before it, up to which they are looked at. A clock that goes back, or ahead by more than 10 s,
+  // starts again there as simulators do at a reset: what came before is forgotten, what came since
+  // stays if it is of this time or before. One line says so the first time. False at the end of all
   // inputs, and once is_stopped() holds, which is asked every 50 ms.
   bool next_tick(Tick& tick, InputPoses& poses, FunctionRef<bool()> is_stopped);
 
-  // Adds the poses that have come, for a loop with a clock of its own.
-  void take_poses(InputPoses& poses);
+  // Adds what has come, up to the horizon, for a loop with a clock of its own.
+  void take_all(InputPoses& poses, const Moment& horizon);
+
+  // Those that were taken.
+  const InputDisturbances& disturbances() const { return disturbances_; }
 
   // Says once for each body that what is on it waits for its first pose.
   void tell_waiting(std::string_view frame);
@@ -80,12 +89,17 @@ class Inputs {
  private:
   struct Event {
     std::string topic;  // of a clock
-    std::string frame;  // of a pose; empty: it is the clock's time
-    StampedPose pose;
+    std::string frame;  // of a pose
+    StampedPose pose;   // without a frame: the clock's time
+    std::optional<StampedDisturbance> disturbance = {};
+
+    bool is_clock() const { return frame.empty() && !disturbance; }
+    std::int64_t stamp_ns() const { return disturbance ? disturbance->stamp_ns : pose.stamp_ns; }
   };
 
   void put(Event event);
-  bool take(Event& event);  // with the mutex held
+  void keep(const Event& event, InputPoses& poses);  // it is no clock
+  bool take(Event& event);                           // with the mutex held
   void tell(const InputOrigin& from, const std::string& text);
   void tell_once(const std::string& key, const std::string& line);
 
@@ -98,6 +112,7 @@ class Inputs {
   std::mutex told_mutex_;
   std::set<std::string> told_;
   std::optional<std::int64_t> clock_ns_;  // the loop's
+  InputDisturbances disturbances_;        // likewise
 };
 
 // A transport that puts into Inputs from a thread of its own, from its making to its end.

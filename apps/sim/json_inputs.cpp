@@ -5,11 +5,14 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 
 #include "apps/shared/json.h"
+#include "scene/scene.h"
+#include "scene/scene_error.h"
 #include "texture/image/image_io.h"
 
 namespace swell::apps {
@@ -17,8 +20,8 @@ namespace {
 
 constexpr std::size_t kLongestLine = 65536;
 constexpr const char* kAllowed =
-    "allowed {\"clock_ns\": N} or {\"body\": FRAME, \"stamp_ns\": N, \"position\": [x, y, z], "
-    "\"orientation\": [x, y, z, w]}";
+    "allowed {\"clock_ns\": N}, {\"disturbance\": {...}, \"stamp_ns\": N} or {\"body\": FRAME, "
+    "\"stamp_ns\": N, \"position\": [x, y, z], \"orientation\": [x, y, z, w]}";
 
 template <std::size_t kCount>
 bool read_numbers(const Json& line, const char* key, std::array<double, kCount>& numbers) {
@@ -40,6 +43,39 @@ bool read_time(const Json& line, const char* key, std::int64_t& t_ns) {
   return true;
 }
 
+void refuse_line(const InputOrigin& from, Inputs& inputs) {
+  inputs.refuse(from, fmt::format("got another line, {}", kAllowed));
+}
+
+// Values of a disturbance have no depth: none is read that would use up the stack.
+bool is_flat(const Json& value) {
+  return !value.is_object() &&
+         !(value.is_array() &&
+           std::ranges::any_of(value, [](const Json& element) { return element.is_structured(); }));
+}
+
+// By the keys of scenes, with their ranges.
+void take_disturbance(const Json& given, std::int64_t stamp_ns, const InputOrigin& from,
+                      Inputs& inputs) {
+  constexpr std::string_view kFile = "line.json";
+  if (const auto kind = given.find("kind"); kind != given.end() && *kind == "hull") {
+    inputs.refuse(from, "disturbance.kind, got \"hull\", allowed drop, footstep or rotor");
+    return;
+  }
+  if (given.contains("t_s") || !std::ranges::all_of(given, is_flat)) {
+    refuse_line(from, inputs);
+    return;
+  }
+  try {
+    const std::string scene = Json{{"disturbance", Json::array({given})}}.dump();
+    inputs.put_disturbance(from, {stamp_ns, scene::parse_scene(scene, kFile).disturbances.at(0)});
+  } catch (const scene::SceneError& error) {
+    std::string_view what = error.what();
+    if (what.starts_with(kFile)) what.remove_prefix(kFile.size() + 2);
+    inputs.refuse(from, std::string(what));
+  }
+}
+
 }  // namespace
 
 void take_json_line(std::string_view line, const InputOrigin& from, Inputs& inputs) {
@@ -48,6 +84,12 @@ void take_json_line(std::string_view line, const InputOrigin& from, Inputs& inpu
   std::int64_t t_ns = 0;
   if (json.is_object() && json.size() == 1 && read_time(json, "clock_ns", t_ns)) {
     inputs.put_clock(from, t_ns);
+    return;
+  }
+  const auto disturbance = json.is_object() ? json.find("disturbance") : json.end();
+  if (disturbance != json.end() && json.size() == 2 && read_time(json, "stamp_ns", t_ns) &&
+      disturbance->is_object()) {
+    take_disturbance(*disturbance, t_ns, from, inputs);
     return;
   }
   std::array<double, 3> p{};
@@ -59,7 +101,7 @@ void take_json_line(std::string_view line, const InputOrigin& from, Inputs& inpu
     inputs.put_pose(from, body->get_ref<const std::string&>(),
                     {t_ns, {p[0], p[1], p[2]}, {q[3], q[0], q[1], q[2]}});
   else
-    inputs.refuse(from, fmt::format("got another line, {}", kAllowed));
+    refuse_line(from, inputs);
 }
 
 JsonInputs::JsonInputs(const std::string& path, Inputs& inputs)

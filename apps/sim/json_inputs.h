@@ -1,5 +1,6 @@
 // Inputs as lines of JSON, of a file or of a program that writes to a pipe:
 //   {"body": "base_link", "stamp_ns": 20000000, "position": [x, y, z], "orientation": [x, y, z, w]}
+//   {"disturbance": {"kind": "drop", "position_m": [x, y], "height_m": 0.2}, "stamp_ns": 20000000}
 //   {"clock_ns": 20000000}
 #pragma once
 
@@ -14,9 +15,11 @@ namespace swell::apps {
 
 // What --rig-keys says of them.
 inline constexpr std::string_view kJsonInputsText = R"(
---inputs: a line of JSON for each pose of a body with pose = "input", in metres in "map", and for
-each time of the clock, which comes after the poses of its time
+--inputs: a line of JSON for each pose of a body with pose = "input", in metres in "map", for each
+drop, footstep or rotor, by a scene's keys of [[disturbance]] without t_s, and for each time of the
+clock, which comes after what is of its time
   {"body": "base_link", "stamp_ns": 0, "position": [x, y, z], "orientation": [x, y, z, w]}
+  {"disturbance": {"kind": "drop", "position_m": [x, y], "height_m": 0.2}, "stamp_ns": 0}
   {"clock_ns": 0}
 With --clock input all that is due up to a time is published, then the next time is waited for. A
 clock that goes back, or ahead by over 10 s, starts again there. Between two poses a body goes along

@@ -114,6 +114,8 @@ class LidarSensor {
     scan.seed = lidar.seed;
     const std::vector<scene::GivenPose> poses = world_.given_poses(moment);
     scan.poses = poses;
+    const std::vector<ocean::Disturbance> disturbances = world_.disturbances(moment);
+    scan.disturbances = disturbances;
     world_.lidar().scan(scan, returns_, world_.workers());
   }
 

@@ -76,8 +76,7 @@ class Run {
     for (Schedule::Due due; schedule.next(due);) {
       if (settings_.realtime) sleep_until(due.stamp_ns - settings_.ahead_ns);
       if (is_stopped_()) break;
-      inputs_.take_poses(poses_);
-      poses_.set_horizon({due.stamp_ns + kLookAhead_ns});
+      inputs_.take_all(poses_, {due.stamp_ns + kLookAhead_ns});
       if (!std::exchange(has_begun, true)) tell_waiting({due.stamp_ns});
       publish(due);
     }

@@ -77,7 +77,7 @@ std::optional<SimOptions> parse_sim_options(int argc, char** argv) {
                   "own; input: lock-step with /clock or --inputs; system: UTC",
                   [&](const std::string& text) { take_clock(text, options); }});
   line.add_text("--inputs", "FILE", options.inputs,
-                "Clock and poses (--rig-keys); - is standard input");
+                "Clock, poses, drops (--rig-keys); - is standard input");
   line.add_value(one_of_two("--dds", "WHETHER", "off", "on", options.dds,
                             "on: ROS 2 topics (--rig-keys); off: no open port"));
   line.add_value(one_of_two("--gazebo", "WHETHER", "off", "on", options.gazebo,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "apps/sim/input_disturbances.h"
 #include "render/measure/lidar.h"
 #include "render/world/world.h"
 #include "scene/camera_path.h"
@@ -12,19 +14,30 @@
 namespace swell::apps {
 
 SimWorld::SimWorld(const render::World& world, const scene::Rig& rig, Workers& workers,
-                   const InputPoses* inputs)
-    : world_(world), rig_(rig), workers_(workers), inputs_(inputs), water_(world.water()) {}
+                   const InputPoses* inputs, const InputDisturbances* disturbances)
+    : world_(world),
+      rig_(rig),
+      workers_(workers),
+      inputs_(inputs),
+      disturbances_(disturbances),
+      water_(world.water()) {}
 SimWorld::~SimWorld() = default;
 
 const ocean::WaterSurface& SimWorld::water_at(const Moment& moment) {
+  std::vector<ocean::Disturbance> more = disturbances(moment);
   for (const KeptWater& kept : kept_)
-    if (kept.surface && kept.t_ns == moment.t_ns) return *kept.surface;
+    if (kept.surface && kept.t_ns == moment.t_ns && kept.disturbances == more) return *kept.surface;
   KeptWater& kept = kept_[next_];
   next_ = (next_ + 1) % kKept;
-  kept.surface.emplace(
-      water_.at(moment.t_s(), kept.sea, workers_, {}, ocean::MakeWakes::kWhenAsked));
   kept.t_ns = moment.t_ns;
+  kept.disturbances = std::move(more);
+  kept.surface.emplace(
+      water_.at(moment.t_s(), kept.sea, workers_, kept.disturbances, ocean::MakeWakes::kWhenAsked));
   return *kept.surface;
+}
+
+std::vector<ocean::Disturbance> SimWorld::disturbances(const Moment& moment) const {
+  return disturbances_ ? disturbances_->at(moment) : std::vector<ocean::Disturbance>();
 }
 
 bool SimWorld::knows(const scene::RigBody& body, const Moment& moment) const {

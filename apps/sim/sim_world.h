@@ -27,13 +27,16 @@ class GroundRays;
 
 namespace swell::apps {
 
+class InputDisturbances;
+
 // Answers depend on the world, the rig and the time alone. Used by one thread at a time.
 class SimWorld {
  public:
   // All of these have to outlive it; check_mounts() passes the rig. `inputs` has the poses of
-  // bodies that come from outside; one without it never has a pose.
+  // bodies that come from outside; one without it never has a pose. `disturbances`: from outside,
+  // too.
   SimWorld(const render::World& world, const scene::Rig& rig, Workers& workers,
-           const InputPoses* inputs = nullptr);
+           const InputPoses* inputs = nullptr, const InputDisturbances* disturbances = nullptr);
   ~SimWorld();
 
   SimWorld(const SimWorld&) = delete;
@@ -60,6 +63,9 @@ class SimWorld {
   // The objects that bodies from outside are, where these are: for what draws or meets them.
   std::vector<scene::GivenPose> given_poses(const Moment& moment) const;
 
+  // What disturbs the water from outside: for what draws or scans it.
+  std::vector<ocean::Disturbance> disturbances(const Moment& moment) const;
+
   // How far a beam, a unit direction, goes until it meets the ground, under water too; infinity
   // where it meets none within far_m, 0 where it begins under it.
   double ground_distance(const glm::dvec3& from, const glm::dvec3& direction, double far_m);
@@ -72,6 +78,7 @@ class SimWorld {
   static constexpr std::size_t kKept = 10;
   struct KeptWater {
     std::int64_t t_ns = 0;
+    std::vector<ocean::Disturbance> disturbances;
     ocean::SeaFrame sea;
     std::optional<ocean::WaterSurface> surface;
   };
@@ -80,6 +87,7 @@ class SimWorld {
   const scene::Rig& rig_;
   Workers& workers_;
   const InputPoses* inputs_;
+  const InputDisturbances* disturbances_;
   scene::Water water_;
   std::unique_ptr<terrain::GroundRays> ground_;  // made for the first that asks
   std::unique_ptr<render::Lidar> lidar_;

@@ -92,7 +92,7 @@ void run(const SimOptions& options) {
   Workers workers(options.threads);
   Inputs inputs(input_frames(rig));
   InputPoses poses;
-  SimWorld sim_world(world, rig, workers, &poses);
+  SimWorld sim_world(world, rig, workers, &poses, &inputs.disturbances());
   const Simulation simulation = make_simulation(sim_world);
 
   std::vector<std::unique_ptr<MessageOutput>> outputs;
