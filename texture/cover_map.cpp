@@ -72,4 +72,22 @@ CoverMap pack_cover(int size, std::vector<glm::vec4> values) {
   }
 }
 
+glm::vec4 cover_at(const CoverMap& map, glm::dvec2 place) {
+  const glm::dvec2 corner = glm::floor(place);
+  const glm::vec2 part(place - corner);
+  const auto bytes =
+      map.words[static_cast<std::size_t>(map.size) * map.size +
+                texel(map.size, static_cast<int>(corner.x), static_cast<int>(corner.y))]
+          .bytes;
+  glm::vec4 channels;
+  for (int n = 0; n < 4; ++n) {
+    const std::int8_t* const taps = &bytes[4 * static_cast<std::size_t>(n)];
+    const auto tap = [&](int k) { return static_cast<float>(taps[k]); };
+    const float code =
+        glm::mix(glm::mix(tap(0), tap(1), part.x), glm::mix(tap(2), tap(3), part.x), part.y);
+    channels[n] = (code + 127.0f) * (1.0f / 254.0f);
+  }
+  return channels;
+}
+
 }  // namespace swell::texture

@@ -32,4 +32,8 @@ struct CoverMap {
 // mean. Single-threaded; 60 ms for 1024 x 1024.
 CoverMap pack_cover(int size, std::vector<glm::vec4> values);
 
+// The four channels at a place in texels of the finest level, bilinearly; finite, within 1e9. The
+// map repeats.
+glm::vec4 cover_at(const CoverMap& map, glm::dvec2 place);
+
 }  // namespace swell::texture

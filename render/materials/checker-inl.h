@@ -13,8 +13,6 @@ HWY_BEFORE_NAMESPACE();
 namespace swell::render {
 namespace HWY_NAMESPACE {
 
-constexpr float kDarkSquare = 0.06f, kLightSquare = 0.8f;  // reflectances, of the ground
-
 // 1 on squares from 0 to 1, -1 on those from 1 to 2, and so on; blended over half_px [squares] on
 // both sides of their borders, towards 0 where a pixel shows many.
 HWY_INLINE V Stripes(V x, V half_px) {

@@ -6,6 +6,8 @@
 
 namespace swell::render {
 
+inline constexpr float kDarkSquare = 0.06f, kLightSquare = 0.8f;  // reflectances, of the ground
+
 // Squares of one size, parallel to the world's axes, one with a corner at the origin.
 struct Checker {
   float per_m = 0.0f;   // squares a metre; 0: there are none

@@ -207,7 +207,7 @@ void Lidar::State::start(const LidarScan& scan, std::span<const std::uint32_t> b
       Way& way = ways[i];
       way = {pose.position_world, glm::normalize(pose.world_from_sensor * along), along, {}};
       meet_objects(world, shapes, objects, ray_of(way), way.target);
-      meet_ground(world, shapes, ray_of(way), way.target);
+      meet_ground(shapes, ray_of(way), way.target);
       if (world.forest) TreeTargets::list_near(*world.forest, tree_boxes, ray_of(way), near_these);
     }
     std::ranges::sort(near_these);
@@ -314,6 +314,9 @@ void Lidar::scan(const LidarScan& scan, std::span<LidarReturn> returns, Workers&
       const auto some =
           std::span(state.ways).subspan(begin, std::min(kBeamsAtOnce, beams.size() - begin));
       state.meet_water(scan, some);
+      for (State::Way& way : some)
+        if (way.target.id == kLandId)
+          look_at_ground(state.world, {way.origin_world, way.along}, way.target);
       for (std::size_t i = 0; i < some.size(); ++i)
         returns[beams[begin + i]] = state.answer(scan, beams[begin + i], some[i]);
     });

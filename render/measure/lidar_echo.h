@@ -4,11 +4,13 @@
 //
 // A light of 905 nm, at which
 //   leaves reflect 0.45    Jacquemoud, Baret, PROSPECT: A Model of Leaf Optical Properties, 1990
-//   soil, sand, bark 0.3   Baumgardner et al., Reflectance Properties of Soils, 1985
+//   bark reflects 0.3      Williams, A Comparison of Spectral Reflectance Properties at the Needle,
+//                          Branch, and Canopy Levels for Selected Conifer Species, 1991
 //   foam 0.33              Koepke, Effective Reflectance of Oceanic Whitecaps, 1984 (0.55 in the
 //                          visible); Frouin, Schwindling, Deschamps, Spectral Reflectance of Sea
 //                          Foam, 1996 (40 % less there)
-//   paint as its colour    the mean of the three
+//   paint as its colour    the mean of the three, also of meshes and forms: pigments have no rule
+//   ground by its covers   render/measure/lidar_ground.h
 // and a metre of water swallows all but a thousandth (Hale, Querry, Optical Constants of Water,
 // 1973): none comes back from below.
 #pragma once
@@ -18,8 +20,7 @@
 
 namespace swell::render {
 
-inline constexpr double kLeafReflectance = 0.45, kBarkReflectance = 0.3, kGroundReflectance = 0.3,
-                        kFoamReflectance = 0.33;
+inline constexpr double kLeafReflectance = 0.45, kBarkReflectance = 0.3, kFoamReflectance = 0.33;
 inline constexpr double kWaterMirror = 0.0198;  // Fresnel, straight on, n = 1.328
 
 // The mean square slope, of both axes together, of water in a wind U10 [m/s] >= 0, without that of

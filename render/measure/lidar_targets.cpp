@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "render/labels/label_channels.h"
-#include "render/measure/lidar_echo.h"
+#include "render/measure/lidar_ground.h"
 #include "render/world/world_state.h"
 #include "shapes/implicit_mesh.h"
 #include "terrain/height_grid.h"
@@ -209,15 +209,18 @@ void meet_objects(const WorldState& world, const LidarShapes& shapes, const Obje
       });
 }
 
-void meet_ground(const WorldState& world, const LidarShapes& shapes, const shapes::WorldRay& ray,
-                 LidarTarget& target) {
+void meet_ground(const LidarShapes& shapes, const shapes::WorldRay& ray, LidarTarget& target) {
   if (!shapes.ground) return;
   const auto met = shapes.ground->meet(ray.origin, ray.along, ray.farthest_m);
   if (!met || *met >= target.distance_m) return;
-  const glm::dvec2 p(ray.origin + *met * ray.along);
-  const glm::dvec2 slope = terrain::slope_at(*world.terrain, p);
-  target = {*met, cos_incidence(glm::dvec3(-slope, 1.0), ray.along), kGroundReflectance, kLandId,
-            kTerrainClass};
+  target = {.distance_m = *met, .id = kLandId, .klass = kTerrainClass};
+}
+
+void look_at_ground(const WorldState& world, const shapes::WorldRay& ray, LidarTarget& target) {
+  const glm::dvec3 p = ray.origin + target.distance_m * ray.along;
+  const glm::dvec2 slope = terrain::slope_at(*world.terrain, glm::dvec2(p));
+  target.cos_incidence = cos_incidence(glm::dvec3(-slope, 1.0), ray.along);
+  target.reflectance = ground_reflectance(world, p);
 }
 
 }  // namespace swell::render

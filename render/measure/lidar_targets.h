@@ -48,10 +48,12 @@ void place_targets(const WorldState& world, double t_s, glm::dvec3 origin_world,
                    ObjectTargets& targets);
 
 // Each puts what it has in place of a target that is farther away. `ray` reaches as far as the
-// target.
+// target. Of the ground only the place is found: most of it may be under water.
 void meet_objects(const WorldState& world, const LidarShapes& shapes, const ObjectTargets& objects,
                   const shapes::WorldRay& ray, LidarTarget& target);
-void meet_ground(const WorldState& world, const LidarShapes& shapes, const shapes::WorldRay& ray,
-                 LidarTarget& target);
+void meet_ground(const LidarShapes& shapes, const shapes::WorldRay& ray, LidarTarget& target);
+
+// Finds the incidence on the ground that a ray has met, and its reflectance.
+void look_at_ground(const WorldState& world, const shapes::WorldRay& ray, LidarTarget& target);
 
 }  // namespace swell::render
