@@ -136,6 +136,26 @@ TEST(PartCache, LooksIntoTheFilesOfAScene) {
   EXPECT_NE(high.hash(), low);
 }
 
+TEST(PartCache, LeavesNothingHalfWrittenWhereItIsGivenUp) {
+  const ScratchFolder folder;
+  const scene::Scene scene = load_shipped("open_ocean");
+  struct Many {
+    std::vector<std::uint64_t> values = std::vector<std::uint64_t>(std::size_t{1} << 21, 7);
+    auto fields() { return std::tie(values); }
+  };
+  constexpr std::uint64_t kParts = 40;
+  {
+    PartCache cache(folder.path(), scene);
+    const auto part = std::make_shared<Many>();
+    for (std::uint64_t n = 0; n < kParts; ++n) cache.keep({n, n}, part);
+  }
+  const PartCache again(folder.path(), scene);
+  std::size_t whole = 0;
+  for (std::uint64_t n = 0; n < kParts; ++n) whole += again.find<Many>({n, n}).has_value();
+  EXPECT_LT(whole, kParts);
+  EXPECT_EQ(folder.names().size(), whole);
+}
+
 TEST(PartCache, HoldsNoMoreThanItMayAndKeepsWhatWasUsedLast) {
   const ScratchFolder folder;
   const scene::Scene scene = load_shipped("open_ocean");
