@@ -36,10 +36,15 @@ float bare_reflectance(float height_m, const terrain::GroundMaterials& materials
   return dry * glm::mix(kWetPart, 1.0f, smoothstep(kWetSandEnd_m, kWetSandBegin_m, height_m));
 }
 
-glm::vec4 cover_over(const CoverMaps& maps, const terrain::Grid& square, glm::dvec2 p) {
-  static_assert(kMappedCovers <= 4, "all mapped covers lie in the first map");
-  const texture::CoverMap& map = maps.front();
-  return texture::cover_at(map, (p - square.min_world) * (map.size / square.size_m()));
+GroundCover cover_over(const CoverMaps& maps, const terrain::Grid& square, glm::dvec2 p) {
+  const glm::dvec2 place = (p - square.min_world) * (maps.front().size / square.size_m());
+  GroundCover cover;
+  glm::vec4 channels;
+  for (std::size_t n = 0; n < kMappedCovers; ++n) {
+    if (n % 4 == 0) channels = texture::cover_at(maps[n / 4], place);
+    cover[static_cast<Cover>(n)] = channels[static_cast<glm::length_t>(n % 4)];
+  }
+  return cover;
 }
 
 float squares_reflectance(double side_m, glm::dvec2 p) {
@@ -54,18 +59,18 @@ double ground_reflectance(const WorldState& world, glm::dvec3 p_world) {
   const terrain::TerrainDescription& land = *world.scene.terrain;
   if (land.checker_m > 0.0) return static_cast<double>(squares_reflectance(land.checker_m, p));
   const TerrainMaps& maps = *world.terrain_maps;
-  const glm::vec4 parts =
+  const GroundCover cover =
       world.terrain->grid.holds(p)
           ? cover_over(maps.ground, world.terrain->grid, p)
           : cover_over(maps.ground_around, terrain::square_with_apron(*world.terrain), p);
-  float bare = 1.0f, grown = 0.0f;
+  float bare = 1.0f, mapped = 0.0f;
   for (std::size_t n = 0; n < kMappedCovers; ++n) {
-    const float part = parts[static_cast<glm::length_t>(n)];
-    grown += part * mapped_reflectance(static_cast<Cover>(n), land.ground);
-    bare -= part;
+    const auto of = static_cast<Cover>(n);
+    mapped += cover[of] * mapped_reflectance(of, land.ground);
+    bare -= cover[of];
   }
   const float all =
-      grown + std::max(bare, 0.0f) * bare_reflectance(static_cast<float>(p_world.z), land.ground);
+      mapped + std::max(bare, 0.0f) * bare_reflectance(static_cast<float>(p_world.z), land.ground);
   return std::clamp(static_cast<double>(all), 0.0, 1.0);
 }
 
