@@ -148,10 +148,10 @@ class CoverGrid {
       std::uint8_t* const row = covered_.data() + y * kSide;
       // Without a branch, so that compilers take several points at once.
       for (int x = first; x <= last; ++x) {
-        const glm::vec2 at(x, y);
-        row[x] |= static_cast<std::uint8_t>((cross(q[0], q[1], at) * area >= 0.0f) &
-                                            (cross(q[1], q[2], at) * area >= 0.0f) &
-                                            (cross(q[2], q[0], at) * area >= 0.0f));
+        const auto is_left = [&, at = glm::vec2(x, y)](int k) {
+          return cross(q[k], q[(k + 1) % 3], at) * area >= 0.0f ? 1 : 0;
+        };
+        row[x] |= static_cast<std::uint8_t>(is_left(0) & is_left(1) & is_left(2));
       }
     }
   }
