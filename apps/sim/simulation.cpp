@@ -20,12 +20,10 @@ std::size_t Simulation::topic(const std::string& name, std::string_view type, bo
 
 std::int64_t stamp_ns(std::int64_t k, double rate_hz) {
   // Seconds apart from their parts: of the clocks of systems k has 12 digits.
-  constexpr double kSecond_ns = 1e9;
   const auto number = static_cast<double>(k);
   const double second = std::floor(number / rate_hz);
   const double rest = std::fma(-second, rate_hz, number);
-  return static_cast<std::int64_t>(second) * 1'000'000'000 +
-         std::llround(rest * kSecond_ns / rate_hz);
+  return static_cast<std::int64_t>(second) * 1'000'000'000 + std::llround(rest * 1e9 / rate_hz);
 }
 
 Schedule::Schedule(const std::vector<Source>& sources, double duration_s, std::int64_t first_ns)
