@@ -1,6 +1,7 @@
 // Runs by a clock of their own: when messages are made and given, and what is said of it.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <limits>
 #include <stdexcept>
@@ -34,12 +35,13 @@ class TimedRun : public MessageOutput {
     simulation_.sources.push_back(
         {"clock", "clock", 200.0, [this, topic](const Moment& moment, const Emit& emit) {
            made.push_back({moment.t_ns, ns_since(start_)});
+           ++made_so_far_;
            emit(topic, msg::Clock{moment.stamp()});
          }});
   }
   void write(std::size_t, std::int64_t stamp_ns, const msg::Message&) override {
     if (given.size() == faulty_at) throw std::runtime_error("full");
-    if (given.empty()) made_before_first = made.size();
+    if (given.empty()) made_before_first = made_so_far_;
     given.push_back({stamp_ns, ns_since(start_)});
   }
   void finish() override { is_finished = true; }
@@ -64,6 +66,7 @@ class TimedRun : public MessageOutput {
 
  private:
   SteadyClock::time_point start_;
+  std::atomic<std::size_t> made_so_far_ = 0;  // asked by the thread that gives
 };
 
 TEST(RealTime, NothingIsGivenBeforeItsMomentAndAllIsGiven) {
