@@ -258,11 +258,12 @@ struct Shader<Object, kView> {
     if (s.media.fog.on) over_others = over_others * SunOverFog(s.media.fog, packet.p.z);
     V sun_visible = over_others * SunOverOwn(s, objects, packet, surface.normal);
     V reflected = hn::Zero(D());
+    const V level_m = FootprintAcross(s.rays, packet);
     if (ShowsWaterSide<kView>(s.media))
-      sun_visible = sun_visible * GatheredSun(s, packet.p, FootprintAcross(s.rays, packet));
+      sun_visible = sun_visible *
+                    GatheredSun(s, packet.p, PatternLevel<kView>(s.caustics.blur, packet, level_m));
     else
-      reflected = over_others *
-                  ReflectedCaustics(s, packet.p, surface.normal, FootprintAcross(s.rays, packet));
+      reflected = over_others * ReflectedCaustics(s, packet.p, surface.normal, level_m);
     const V3 matt = MattLight(s.light, object.sea_light, surface,
                               {sun_visible, AmbientUnderClouds(s, packet.p)}, reflected);
     if (ShowsWaterSide<kView>(s.media)) return {matt, surface.normal};

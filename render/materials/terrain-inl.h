@@ -284,7 +284,8 @@ struct Shader<Terrain, kView> {
     V sun_visible = SunOnGround<kView>(s, terrain, tile, packet, level_m);
     if (s.media.fog.on) sun_visible = sun_visible * SunOverFog(s.media.fog, packet.p.z);
     if (ShowsWaterSide<kView>(s.media))
-      sun_visible = sun_visible * GatheredSun(s, packet.p, level_m);
+      sun_visible = sun_visible *
+                    GatheredSun(s, packet.p, PatternLevel<kView>(s.caustics.blur, packet, level_m));
     const Ground ground = LightGround<kDetail>(terrain, s, packet, level_m, sun_visible);
     if constexpr (kView == ViewKind::kWindow) {
       if (s.media.submerged) return ShadingResult{ground.light, ground.normal};

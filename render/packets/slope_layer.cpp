@@ -39,6 +39,13 @@ SlopeLayer lay(const texture::PackedMap2& map, glm::dvec2 length_m, float gain, 
 
 }  // namespace
 
+float lost_variance(const SlopeLayer& layer, float level_m) {
+  const float level = std::clamp(level_m + layer.log2_texels_per_m, 0.0f, layer.coarsest);
+  const float base = std::floor(level);
+  const auto at = static_cast<std::size_t>(base);
+  return layer.lost_variance[at] + (level - base) * layer.lost_by_next[at];
+}
+
 SlopeLayer make_layer(const texture::PackedMap2& map, double length_m, float gain, glm::dvec2 eye,
                       glm::dvec2 moved_m) {
   return lay(map, glm::dvec2(length_m), gain, eye - moved_m);

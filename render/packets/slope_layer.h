@@ -34,6 +34,9 @@ struct SlopeLayer {
   std::array<float, 2 * kTableLevels> lost_variance{}, lost_by_next{};
 };
 
+// Slope variance, both axes together, that the layer has lost at footprints of 2^level_m metres.
+float lost_variance(const SlopeLayer& layer, float level_m);
+
 // x without its whole part, in [0, 1].
 float fraction(double x);
 

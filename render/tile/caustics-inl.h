@@ -106,6 +106,19 @@ HWY_NOINLINE static V GatheredSunAt(const Shading& s, std::size_t patches, const
   return MulAdd(more, caustics.strength, one);
 }
 
+// The level [log2 m] of the patterns that a view shows at a packet whose pixels are of level_m.
+template <ViewKind kView>
+HWY_INLINE V PatternLevel(const RefractionBlur& blur, const Packet& packet, V level_m) {
+  if constexpr (kView != ViewKind::kRefraction) return level_m;
+  const D d;
+  const V at = Clamp(level_m - RefractionBlur::kFirst_m, 0.0f, RefractionBlur::kEntries - 0.01f);
+  const VI base = TruncateToInt(at);
+  const V levels = MulAdd(EntriesOfEight(d, blur.levels_by_next.data(), base),
+                          at - hn::ConvertTo(d, base), EntriesOfEight(d, blur.levels.data(), base));
+  const V factor = Clamp(Abs(packet.to_eye.z) * blur.by_sine, blur.least, 1.0f);
+  return level_m + Max(levels + Log2Coarse(d, factor), hn::Zero(d));
+}
+
 // Returns GatheredSunAt() by all patches, at the depth of p under the water's level.
 template <bool kNearest = false>
 HWY_INLINE V GatheredSun(const Shading& s, const V3& p, V level_m) {

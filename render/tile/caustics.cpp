@@ -13,7 +13,8 @@
 
 namespace swell::render {
 
-Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye) {
+Caustics make_caustics(const MaterialInputs& in, const View& camera) {
+  const glm::dvec2 eye(camera.eye_world);
   const CausticMaps& maps = in.sea.caustics;
   Caustics caustics;
   caustics.patches = maps.patches;
@@ -28,6 +29,7 @@ Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye) {
     caustics.bend_m = static_cast<float>(in.world.scene.water.caustic_distortion);
     caustics.ripples = make_ripples(in, eye);
   }
+  if (maps.patches > 0) caustics.blur = make_refraction_blur(in, camera);
   for (std::size_t p = 0; p < maps.patches; ++p) {
     CausticPatch& patch = caustics.patch[p];
     for (std::size_t k = 0; k < CausticMaps::kDepths; ++k)

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "render/sea/caustic_maps.h"
+#include "render/tile/distortion.h"
 #include "render/tile/ripples.h"
 
 namespace swell::render {
@@ -34,8 +35,9 @@ struct Caustics {
   // How ripples move the lookup.
   float bend_m = 0.0f;  // Cc, 0: not at all
   Ripples ripples;
+  RefractionBlur blur;  // in views through the water's surface
 };
 
-Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye);
+Caustics make_caustics(const MaterialInputs& in, const View& camera);
 
 }  // namespace swell::render

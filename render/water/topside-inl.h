@@ -71,14 +71,14 @@ HWY_INLINE Looked LookUpDistorted(const Water& water, const PlanarMap& map, cons
       MulAdd(s.slope_x, water.images.view_right.x, s.slope_y * water.images.view_right.y);
   const V ahead =
       MulAdd(s.slope_x, water.images.view_ahead.x, s.slope_y * water.images.view_ahead.y);
-  const V gain =
-      sign * water.images.distortion_px *
-      Clamp(packet.to_eye.z * water.images.distortion_by_sine, water.images.least_distortion, 1.0f);
+  const Distortion& distortion = water.images.distortion;
+  const V gain = sign * distortion.px_per_slope *
+                 Clamp(packet.to_eye.z * distortion.by_sine, distortion.least, 1.0f);
   // What lies under water is near the surface: slopes too fine to see move it by less than they
   // spread it.
   const BlurLevel level = kBacked ? Sharp() : FindBlur(map, s.variance, gain * gain);
   const float bound = water.images.max_distortion_px;
-  const V dx = Clamp(right * (gain * -water.images.distortion_across), -bound, bound);
+  const V dx = Clamp(right * (gain * -distortion.across), -bound, bound);
   const V dy = Clamp(ahead * gain, -bound, bound);
   const V half = Constant(0.5f);
   const V x = packet.x_px + half, y = packet.y_px + half;
@@ -206,7 +206,8 @@ HWY_INLINE Refracted RefractedLight(const Shading& shading, const Water& water,
   if (water.bump_detail.on() || water.texture.on())
     deep = deep * OwnColour(shading, water, packet, NormalOf(s.slope_x, s.slope_y), sun_visible);
   if (!use_image) return {deep, hn::Zero(D()), Constant(glm::vec3(0.0f))};
-  const Looked floor = LookUpDistorted<true>(water, water.images.refraction, packet, s, -0.5f);
+  const Looked floor =
+      LookUpDistorted<true>(water, water.images.refraction, packet, s, kRefractedDistortion);
   // The image's water has no crests: over a floor too deep to be seen it must be as without one.
   const V weight = floor.alpha * water.optics.refraction_weight;
   const V3 floor_added = (floor.light + crest_light - deep) * weight;

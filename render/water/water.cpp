@@ -88,7 +88,7 @@ void fill_slope_axes(const View& camera, Water& water) {
   const glm::vec2 l = water.images.view_right, a = water.images.view_ahead;
   const float cos_r = glm::dot(glm::vec2(camera.right), l);
   const float sin_r = glm::dot(glm::vec2(camera.up), l);
-  const float across = water.images.distortion_across;
+  const float across = water.images.distortion.across;
   water.images.view_right = cos_r * l - 1.0f / across * sin_r * a;
   water.images.view_ahead = cos_r * a + across * sin_r * l;
 }
@@ -160,13 +160,7 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.optics.refraction_weight = static_cast<float>(in.world.scene.water.refraction_weight);
   water.images.reflection = in.reflection;
   water.images.refraction = in.refraction;
-  water.images.distortion_px =
-      static_cast<float>(in.world.scene.water.distortion * camera.picture_height_px());
-  if (in.world.scene.water.distortion_factor == scene::DistortionFactor::kPaper) {
-    water.images.distortion_by_sine = 0.5f / camera.tan_half_y;
-    water.images.least_distortion = 0.0f;
-    water.images.distortion_across = 1.0f;
-  }
+  water.images.distortion = make_distortion(in.world.scene, camera);
   water.images.max_distortion_px = max_distortion_px(camera);
   fill_slope_axes(camera, water);
 }

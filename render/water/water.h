@@ -6,6 +6,7 @@
 
 #include "ocean/spectrum/limits.h"
 #include "render/packets/slope_layer.h"
+#include "render/tile/distortion.h"
 #include "render/tile/inputs.h"
 #include "render/water/foam.h"
 #include "render/water/glitter.h"
@@ -51,11 +52,8 @@ struct WaterOptics {
 // The images that the water looks into, and how slopes displace the lookups.
 struct WaterImages {
   PlanarMap reflection, refraction;
-  float distortion_px = 0.0f;      // window pixels per unit of slope
-  float max_distortion_px = 0.0f;  // bound of the displacement, each way
-  // What it is multiplied by: the sine of the eye's elevation over the water, times this, bounded.
-  float distortion_by_sine = 6.0f, least_distortion = 0.1f;
-  float distortion_across = 0.5f;                // to the side, over that up and down
+  Distortion distortion;
+  float max_distortion_px = 0.0f;                // bound of the displacement, each way
   glm::vec2 view_right{1, 0}, view_ahead{0, 1};  // of a level camera: horizontal unit vectors
 };
 

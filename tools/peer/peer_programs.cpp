@@ -181,10 +181,10 @@ void set_water(const Shading& s, const GlProgram& program) {
   program.set("inv_crest_height", water.optics.inv_crest_height);
   program.set("inv_wave_reach", water.optics.inv_wave_reach);
   program.set("inv_window", 1.0f / glm::vec2(s.viewport.width_px, s.viewport.height_px));
-  program.set("distortion_px", water.images.distortion_px);
+  program.set("distortion_px", water.images.distortion.px_per_slope);
   program.set("max_distortion_px", water.images.max_distortion_px);
-  program.set("distortion_by_sine", water.images.distortion_by_sine);
-  program.set("least_distortion", water.images.least_distortion);
+  program.set("distortion_by_sine", water.images.distortion.by_sine);
+  program.set("least_distortion", water.images.distortion.least);
   program.set("view_right", water.images.view_right);
   program.set("view_ahead", water.images.view_ahead);
 }

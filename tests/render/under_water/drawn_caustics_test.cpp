@@ -149,6 +149,32 @@ TEST_F(DrawnCaustics, AreThoseOfAWholeLoopBefore) {
   EXPECT_NE(picture_hash(draw(world, 13.0)), first);
 }
 
+// The root mean square by which pixels differ from the mean of those to their left and right.
+double grain(const World& world, const View& view) {
+  const std::vector<float> light =
+      green_light(Shot(world, view, 3.0, {.keep_linear = true}).target);
+  double squares = 0.0, count = 0.0;
+  for (int y = 0; y < view.height_px; ++y)
+    for (int x = 1; x + 1 < view.width_px; ++x) {
+      const float* const at = light.data() + y * view.width_px + x;
+      const auto by = static_cast<double>(at[0] - 0.5f * (at[-1] + at[1]));
+      squares += by * by;
+      count += 1.0;
+    }
+  return std::sqrt(squares / count);
+}
+
+// Through waves neighbouring pixels look past each other. What is finer than that would be noise,
+// ten times as grainy as the floor is through level water.
+TEST_F(DrawnCaustics, OfAFarFloorAreNoNoise) {
+  const View far = make_view({0.0, 0.0, kCausticsEye_m}, 0.0, -0.25, 0.9, 0.25f, 960, 540);
+  scene::Scene scene = shallow_water(2.0, 0.6);
+  const World level = world_of(scene);
+  scene.water.distortion = 1.0;
+  const World bent = world_of(scene);
+  EXPECT_LT(grain(bent, far), 3.0 * grain(level, far));
+}
+
 TEST_F(DrawnCaustics, OfNoContrastAreNone) {
   scene::Scene scene = shallow_water(2.0, 0.6);
   const World world = world_of(scene);
