@@ -9,12 +9,14 @@
 //   . . . . 4 . . . 8 . . . 12 . . . .
 //   . 1 . 3 . 5 . 7 . 9 . 11 . 13 . .   third, between all of those
 // A pixel is filled in if it and its two neighbours show one material and no edge, and if these are
-// as bright as each other within kMostAlong. In the second round what it would get must also be as
-// bright within kMostAcross as the pixels above and below, which were shaded in the first; in the
-// third the neighbours of those above and below must be alike, too. Waves lie across the picture,
-// so that columns may be far apart, and rows may not. What is two pixels wide (a pole in the
-// mirror, a mast's shadow) cannot hide between columns: every second row meets it, and the rows
-// around it are held against that one. Bright means what BrightnessScaleOf() says.
+// about as bright as each other. In the second round they may differ by kMostAlong, and what the
+// pixel would get from the pixels above and below, which were shaded in the first, by kMostAcross.
+// In the third their difference and half of the same of the columns two to the left and right may
+// be kMostAround, here and in the rows above and below: among waves as fine as pixels neighbours
+// may be alike by chance, but not all around. Waves lie across the picture, so that columns may be
+// far apart, and rows may not. What is two pixels wide (a pole in the mirror, a mast's shadow)
+// cannot hide between columns: every second row meets it, and the rows around it are held against
+// that one. Bright means what BrightnessScaleOf() says.
 #if defined(SWELL_RENDER_SHADE_ADAPTIVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_RENDER_SHADE_ADAPTIVE_INL_H_
 #undef SWELL_RENDER_SHADE_ADAPTIVE_INL_H_
@@ -28,6 +30,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -57,7 +60,8 @@ constexpr Round kSecond = {{EachBlock(0x4444), EachBlock(0x1110)}, 2};
 constexpr Round kThird = {{EachBlock(0x2aaa), EachBlock(0x2aaa)}, 1};
 static_assert((kFirstColumns[0] | kSecond.columns[0] | kThird.columns[0]) == ~RowBits{0});
 static_assert((kFirstColumns[1] | kSecond.columns[1] | kThird.columns[1]) == ~RowBits{0});
-constexpr float kMostAlong = 6.0f, kMostAcross = 4.0f;  // differences in brightness, of 255
+constexpr float kMostAlong = 8.0f, kMostAcross = 5.0f;  // differences in brightness, of 255
+constexpr float kMostAround = 17.0f;                    // the same, of two columns' worth
 
 HWY_INLINE RowBits BitsOf(M mask) {
   std::conditional_t<kLanes <= 8, std::uint8_t, std::uint16_t> bits = 0;
@@ -65,10 +69,19 @@ HWY_INLINE RowBits BitsOf(M mask) {
   return bits;
 }
 
+HWY_INLINE M LanesOf(RowBits bits) {
+  const auto lanes = static_cast<std::uint16_t>(bits & ~RowBits{0} >> (64 - kLanes));
+  return hn::LoadMaskBits(D(), reinterpret_cast<const std::uint8_t*>(&lanes));
+}
+
 // The surfaces of a tile: whose pixels are where, and which are not to be filled in.
 struct TileSurfaces {
   std::array<TileBits, kMaterialCount> of{};
   TileBits all{}, always{};
+  std::array<std::size_t, kMaterialCount> materials;  // that there are any of
+  std::size_t material_count = 0;
+
+  auto present() const { return std::span(materials).first(material_count); }
 };
 
 // Finds material kMaterial in a tile.
@@ -79,6 +92,7 @@ HWY_INLINE void FindSurface(const Shading& s, const TilePixels& tile, TileSurfac
   const DU du;
   const std::uint32_t begin = s.primitives.begin(kKind), size = s.primitives.end(kKind) - begin;
   const int side = s.grid.tile_size_px, width = tile.box.width_px;
+  RowBits any = 0;
   for (int y = 0; y < tile.box.height_px; ++y) {
     RowBits row = 0;
     for (int x = 0; x < width; x += static_cast<int>(kLanes)) {
@@ -89,7 +103,9 @@ HWY_INLINE void FindSurface(const Shading& s, const TilePixels& tile, TileSurfac
     surfaces.of[kMaterial][y] = row;
     surfaces.all[y] |= row;
     if (!kSurfaceTraits[kKind].varies_slowly) surfaces.always[y] |= row;
+    any |= row;
   }
+  if (any != 0) surfaces.materials[surfaces.material_count++] = kMaterial;
 }
 
 inline HWY_NOINLINE void FindSurfaces(const Shading& s, const TilePixels& tile,
@@ -119,7 +135,7 @@ inline PixelList ListSky(const Shading& s, const TilePixels& tile, const TileSur
 inline HWY_NOINLINE PixelLists ListRows(const Shading& s, const TileBits& rows, int height,
                                         const TileSurfaces& surfaces, ShadeScratch& scratch) {
   PixelLists lists;
-  for (std::size_t k = 0; k < kMaterialCount; ++k) {
+  for (const std::size_t k : surfaces.present()) {
     std::uint16_t* const begin = scratch.lists[k].data();
     std::uint16_t* end = begin;
     for (int y = 0; y < height; ++y) {
@@ -148,13 +164,9 @@ HWY_INLINE void FillBetween(const Round& round, RowBits row, std::size_t first,
   const D d;
   const bool has_14 = round.step == 2;
   for (std::size_t x = static_cast<std::size_t>(round.step); x < 64; x += kLanes) {
-    const auto bits = static_cast<std::uint16_t>(row >> x & (~RowBits{0} >> (64 - kLanes)));
-    if (bits == 0) continue;
-    const auto lanes_of = [&](std::uint16_t lanes) HWY_ATTR {
-      return hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&lanes));
-    };
-    const M filled = lanes_of(bits);
-    const M is_14 = lanes_of(static_cast<std::uint16_t>(has_14 ? kColumn14 >> x % kBlockSize : 0));
+    const M filled = LanesOf(row >> x);
+    if (hn::AllFalse(d, filled)) continue;
+    const M is_14 = LanesOf(has_14 ? kColumn14 >> x : 0);
     const V from_left = IfThenElse(is_14, 1.0f / 3.0f, Constant(0.5f));
     const std::array<float*, 4> planes = {scratch.red.data(), scratch.green.data(),
                                           scratch.blue.data(), scratch.brightness.data()};
@@ -182,8 +194,10 @@ HWY_INLINE void FillRound(const Round& round, int side, int height, const TileSu
                           ShadeScratch& scratch, const Alike& is_alike, TileBits& rows) {
   for (int y = 0; y < height; ++y) {
     RowBits alike = 0;
-    for (const TileBits& of : surfaces.of)
-      alike |= of[y] & of[y] << round.step & NextToTheRight(round, of[y]);
+    for (const std::size_t k : surfaces.present()) {
+      const RowBits of = surfaces.of[k][y];
+      alike |= of & of << round.step & NextToTheRight(round, of);
+    }
     const RowBits always = surfaces.always[y];
     alike &= is_alike(y) & ~(always << round.step | NextToTheRight(round, always));
     const RowBits wanted = surfaces.all[y] & round.columns[y % 2] & ~always;
@@ -212,7 +226,8 @@ inline HWY_NOINLINE void FillSecondRound(int side, int height, const TileSurface
   };
   const auto unlike_across = [&](int y, int other) HWY_ATTR {
     RowBits alike = 0;
-    for (const TileBits& of : surfaces.of) alike |= of[y] & of[other];
+    for (const std::size_t k : surfaces.present())
+      alike |= surfaces.of[k][y] & surfaces.of[k][other];
     return ~alike |
            Differ(between.data(), scratch.brightness.data() + other * side, side, kMostAcross);
   };
@@ -225,6 +240,26 @@ inline HWY_NOINLINE void FillSecondRound(int side, int height, const TileSurface
   FillRound(kSecond, side, height, surfaces, scratch, alike, rows);
 }
 
+// The columns around which neighbours differ too much for the third round: by the sum of their own
+// difference and half of those of the columns two to the left and right. Those that are not among
+// `columns` count as the column itself.
+HWY_INLINE RowBits UnlikeAround(const float* row, RowBits columns, int side) {
+  const D d;
+  HWY_ALIGN std::array<float, 4 + 64 + kLanes> beside{};  // of column x at 2 + x
+  for (int x = 0; x < side; x += static_cast<int>(kLanes))
+    hn::StoreU(hn::AbsDiff(hn::LoadU(d, row + x), hn::LoadU(d, row + x + 2)), d,
+               beside.data() + 3 + x);
+  RowBits bits = 0;
+  for (int x = 0; x < side; x += static_cast<int>(kLanes)) {
+    const float* const at = beside.data() + x;
+    const V own = hn::LoadU(d, at + 2);
+    const V left = IfThenElse(LanesOf(columns << 2 >> x), hn::LoadU(d, at), own);
+    const V right = IfThenElse(LanesOf(columns >> 2 >> x), hn::LoadU(d, at + 4), own);
+    bits |= BitsOf(MulAdd(left + right, 0.5f, own) > kMostAround) << x;
+  }
+  return bits;
+}
+
 // The third round, between columns that are known in all rows.
 inline HWY_NOINLINE void FillThirdRound(int side, int height, const TileSurfaces& surfaces,
                                         ShadeScratch& scratch, TileBits& rows) {
@@ -232,9 +267,10 @@ inline HWY_NOINLINE void FillThirdRound(int side, int height, const TileSurfaces
   const auto unlike_beside = [&](int y) HWY_ATTR {
     if (y >= height) return RowBits{0};
     RowBits alike = 0;
-    for (const TileBits& of : surfaces.of) alike |= of[y] << 1 & of[y] >> 1;
+    for (const std::size_t k : surfaces.present())
+      alike |= surfaces.of[k][y] << 1 & surfaces.of[k][y] >> 1;
     const float* const row = scratch.brightness.data() + y * side;
-    return ~alike | Differ(row, row + 2, side, kMostAlong) << 1;
+    return ~alike | UnlikeAround(row, alike & kThird.columns[y % 2], side);
   };
   RowBits above = 0, here = 0, below = unlike_beside(0);
   const auto alike = [&](int y) HWY_ATTR {

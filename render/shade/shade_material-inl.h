@@ -63,12 +63,14 @@ HWY_NOINLINE void ArrivingLights(const Shading& s, const TilePixels& tile, const
                                                     keep, found[k]);
 }
 
-// How pixels of a material are told apart by one number. Grass and sand may be as bright as each
-// other, but not as red; water takes the red away. Land's grain is as fine as a pixel in all
-// directions, so that neighbours say less of what lies between.
+// How pixels of a material are told apart by one number. The sea is darkest in red, in which what
+// is shown therefore differs most; under water there is none. Grass and sand may be as bright as
+// each other, but not as red. Land's grain is as fine as a pixel in all directions, so that
+// neighbours say less of what lies between.
 template <class M>
 BrightnessScale BrightnessScaleOf(const Media& media) {
-  if (kSurfaceTraits[M::kSurface].is_water || media.submerged) return {{0.25f, 0.5f, 0.25f}, 1.0f};
+  if (media.submerged) return {{0.25f, 0.5f, 0.25f}, 1.0f};
+  if (kSurfaceTraits[M::kSurface].is_water) return {{0.6f, 0.2f, 0.2f}, 1.0f};
   return {{0.75f, 0.25f, 0.0f}, 1.5f};
 }
 

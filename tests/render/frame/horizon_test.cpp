@@ -26,7 +26,9 @@ scene::Scene calm_sea() {
 }
 
 Shot draw(const World& world, const View& view) {
-  return Shot(world, view, 5.0, {.water_triangles = 20000, .edge_samples = 0});
+  // Not adaptively: a pixel may be filled in on one side of a step and shaded on the other.
+  return Shot(world, view, 5.0,
+              {.water_triangles = 20000, .edge_samples = 0, .shading = scene::ShadingRate::kFull});
 }
 
 // Rolled, so that the horizon crosses pixels' centres at all heights.
