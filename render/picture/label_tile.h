@@ -7,10 +7,10 @@
 #include "render/labels/labels.h"
 #include "render/labels/shaded_labels.h"
 #include "render/picture/label_tables.h"
-#include "render/tile/shading.h"
 
 namespace swell::render {
 
+struct Shading;
 struct WorldState;
 
 // What the labels of all tiles of a picture are made from.

@@ -4,6 +4,7 @@
 
 #include "math/check.h"
 #include "render/picture/label_tile.h"
+#include "render/tile/shading.h"
 #include "render/world/land_rays.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -1,8 +1,12 @@
 #include "render/tile/caustics.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "math/elementary.h"
+#include "math/view.h"
+#include "ocean/open_sea/sea.h"
 #include "render/frame/parts.h"
 #include "render/packets/slope_layer.h"
 #include "render/sea/sea_maps.h"
@@ -12,6 +16,44 @@
 #include "render/world/world_state.h"
 
 namespace swell::render {
+namespace {
+
+RefractionBlur make_refraction_blur(const MaterialInputs& in, const View& camera) {
+  // Slope variance, both axes together, by which footprints of 2^level_m metres and twice that
+  // differ: about what neighbouring pixels do.
+  std::array<float, RefractionBlur::kEntries + 1> levels{};
+  const auto add = [&](const SlopeLayer& layer) {
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const float level_m = RefractionBlur::kFirst_m + static_cast<float>(i);
+      levels[i] += lost_variance(layer, level_m + 1.0f) - lost_variance(layer, level_m);
+    }
+  };
+  for (std::size_t i = 0; i < in.sea.patch_slopes.size(); ++i) {
+    const ocean::PatchFrame& patch = in.sea.frame.patches[i];
+    add(make_patch_layer(in.sea.patch_slopes[i], patch.length_m, patch.tiling, {}));
+  }
+  const Ripples ripples = make_ripples(in, {});
+  for (int i = 0; i < ripples.count; ++i) add(ripples.layers[static_cast<std::size_t>(i)]);
+
+  const Distortion distortion = make_distortion(in.world.scene, camera);
+  const double px_per_slope =
+      std::abs(kRefractedDistortion) * distortion.across * distortion.px_per_slope;
+  for (float& level : levels) {
+    const double px = px_per_slope * std::sqrt(0.5 * level);
+    level = static_cast<float>(log(std::max(px, 1e-3)) * 1.4426950408889634);
+  }
+  RefractionBlur blur;
+  for (std::size_t i = 0; i < blur.levels.size(); ++i) {
+    const std::size_t entry = i % RefractionBlur::kEntries;
+    blur.levels[i] = levels[entry];
+    blur.levels_by_next[i] = levels[entry + 1] - levels[entry];
+  }
+  blur.by_sine = distortion.by_sine;
+  blur.least = std::max(distortion.least, 0.01f);
+  return blur;
+}
+
+}  // namespace
 
 Caustics make_caustics(const MaterialInputs& in, const View& camera) {
   const glm::dvec2 eye(camera.eye_world);

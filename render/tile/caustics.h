@@ -5,8 +5,11 @@
 #include <glm/glm.hpp>
 
 #include "render/sea/caustic_maps.h"
-#include "render/tile/distortion.h"
 #include "render/tile/ripples.h"
+
+namespace swell {
+struct View;
+}
 
 namespace swell::render {
 
@@ -21,6 +24,16 @@ struct CausticPatch {
   float y_texels_fx8_per_m = 1.0f;
   float x_eye_fx8 = 0.0f, y_eye_fx8 = 0.0f;  // under the eye
   float log2_texels_per_m = 0.0f;            // along the axis with more of them
+};
+
+// Neighbouring pixels look past each other through waves: finer patterns would be noise. How many
+// mip levels coarser they are seen, by the log2 of a pixel's footprint [m] from kFirst_m on;
+// repeated for wide vectors.
+struct RefractionBlur {
+  static constexpr int kEntries = 8;
+  static constexpr float kFirst_m = -7.0f;
+  std::array<float, 2 * kEntries> levels{}, levels_by_next{};
+  float by_sine = 1.0f, least = 1.0f;  // as Distortion's
 };
 
 struct Caustics {

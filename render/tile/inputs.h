@@ -12,6 +12,10 @@ namespace swell::texture {
 struct RgbaImage;
 }
 
+namespace swell::scene {
+struct Scene;
+}
+
 namespace swell::render {
 
 struct Light;
@@ -27,6 +31,19 @@ struct PlanarMap {
   const texture::RgbaImage* image = nullptr;
   float scale_x = 1.0f, scale_y = 1.0f;
 };
+
+// How the water's slopes displace what it mirrors: less where the surface is seen edge-on.
+struct Distortion {
+  float px_per_slope = 0.0f;
+  // Multiplied by the sine of the eye's elevation times by_sine, in [least, 1].
+  float by_sine = 6.0f, least = 0.1f;
+  float across = 0.5f;  // to the side, over that up and down
+};
+
+// What is seen through the water is displaced by less, the other way.
+inline constexpr float kRefractedDistortion = -0.5f;
+
+Distortion make_distortion(const scene::Scene& scene, const View& camera);
 
 // What rivers and lakes at about this level mirror.
 struct RiverImage {

@@ -6,7 +6,6 @@
 
 #include "ocean/spectrum/limits.h"
 #include "render/packets/slope_layer.h"
-#include "render/tile/distortion.h"
 #include "render/tile/inputs.h"
 #include "render/water/foam.h"
 #include "render/water/glitter.h"
