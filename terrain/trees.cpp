@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "math/random.h"
 #include "math/smoothstep.h"
@@ -311,6 +312,10 @@ Trees plant_trees(std::span<const TreeStand> stands, const HeightGrid& terrain,
   Trees trees;
   const double size_m = terrain.grid.size_m();
   trees.origin = glm::dvec3(terrain.grid.min_world, 0.0);
+  std::vector<std::vector<glm::dvec2>> poisson_tiles(stands.size());
+  workers.for_each(stands.size(), [&](std::size_t n, int) {
+    if (stands[n].density_per_m2 > 0.0) poisson_tiles[n] = make_poisson_tile(stands[n].seed);
+  });
   double places = 0.0;
   for (std::size_t n = 0; n < stands.size(); ++n) {
     const TreeStand& stand = stands[n];
@@ -324,7 +329,7 @@ Trees plant_trees(std::span<const TreeStand> stands, const HeightGrid& terrain,
                          terrain,
                          lines,
                          StandDensity(stand, terrain),
-                         make_poisson_tile(stand.seed),
+                         std::move(poisson_tiles[n]),
                          tile_m,
                          {shift(0), shift(1)}};
     const auto tiles = tiles_of(plan);
