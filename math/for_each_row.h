@@ -7,7 +7,7 @@
 #include "math/parallel.h"
 #include "math/stop.h"
 
-namespace swell::render {
+namespace swell {
 
 // Calls body(j) for each row j of a map of so many rows, with several rows to a piece of work.
 template <class Body>
@@ -22,4 +22,4 @@ void for_each_row(int rows, Workers& workers, const Body& body) {
   });
 }
 
-}  // namespace swell::render
+}  // namespace swell

@@ -6,8 +6,8 @@
 #include <cstddef>
 
 #include "math/check.h"
+#include "math/for_each_row.h"
 #include "math/large_array.h"
-#include "math/stop.h"
 
 namespace swell::texture {
 namespace {
@@ -17,47 +17,48 @@ std::size_t texel(int size, int i, int j) {
 }
 
 // Half as many texels a side.
-std::vector<glm::vec4> filter_down(int size, const std::vector<glm::vec4>& fine) {
+std::vector<glm::vec4> filter_down(int size, const std::vector<glm::vec4>& fine, Workers& workers) {
   const int half = size / 2;
   auto rows = make_large<glm::vec4>(fine.size() / 2),
        coarse = make_large<glm::vec4>(fine.size() / 4);
-  for (int j = 0; j < half; ++j) {
-    check_stop();
+  for_each_row(half, workers, [&](int j) {
     for (int i = 0; i < size; ++i)
       rows[texel(size, i, 0) + static_cast<std::size_t>(j) * size] =
           0.25f * (fine[texel(size, i, 2 * j - 1)] + fine[texel(size, i, 2 * j + 1)]) +
           0.5f * fine[texel(size, i, 2 * j)];
-  }
-  for (int j = 0; j < half; ++j) {
+  });
+  for_each_row(half, workers, [&](int j) {
     const glm::vec4* const row = rows.data() + static_cast<std::size_t>(j) * size;
     for (int i = 0; i < half; ++i)
       coarse[texel(half, i, j)] =
           0.25f * (row[texel(size, 2 * i - 1, 0)] + row[2 * i + 1]) + 0.5f * row[2 * i];
-  }
+  });
   return coarse;
 }
 
-void pack_level(int size, const std::vector<glm::vec4>& values, CoverWord* words) {
+void pack_level(int size, const std::vector<glm::vec4>& values, CoverWord* words,
+                Workers& workers) {
   auto code = make_large<std::array<std::int8_t, 4>>(values.size());
-  check_stop();
-  for (std::size_t k = 0; k < values.size(); ++k)
-    for (int channel = 0; channel < 4; ++channel)
-      code[k][static_cast<std::size_t>(channel)] = static_cast<std::int8_t>(
-          std::lrint(254.0f * std::clamp(values[k][channel], 0.0f, 1.0f)) - 127);
-  for (int j = 0; j < size; ++j) {
-    check_stop();
+  for_each_row(size, workers, [&](int j) {
+    for (std::size_t k = texel(size, 0, j); k < texel(size, 0, j) + static_cast<std::size_t>(size);
+         ++k)
+      for (int channel = 0; channel < 4; ++channel)
+        code[k][static_cast<std::size_t>(channel)] = static_cast<std::int8_t>(
+            std::lrint(254.0f * std::clamp(values[k][channel], 0.0f, 1.0f)) - 127);
+  });
+  for_each_row(size, workers, [&](int j) {
     for (int i = 0; i < size; ++i) {
       const std::array<std::size_t, 4> taps = {texel(size, i, j), texel(size, i + 1, j),
                                                texel(size, i, j + 1), texel(size, i + 1, j + 1)};
       CoverWord& word = words[texel(size, i, j)];
       for (std::size_t n = 0; n < 16; ++n) word.bytes[n] = code[taps[n % 4]][n / 4];
     }
-  }
+  });
 }
 
 }  // namespace
 
-CoverMap pack_cover(int size, std::vector<glm::vec4> values) {
+CoverMap pack_cover(int size, std::vector<glm::vec4> values, Workers& workers) {
   SWELL_CHECK(size >= 1 && size <= 4096 && std::has_single_bit(static_cast<unsigned>(size)) &&
                   values.size() == static_cast<std::size_t>(size) * size,
               "size={} values={}", size, values.size());
@@ -66,9 +67,9 @@ CoverMap pack_cover(int size, std::vector<glm::vec4> values) {
   map.levels = std::bit_width(static_cast<unsigned>(size));
   resize_large(map.words, 2 * static_cast<std::size_t>(size) * size);
   for (int side = size;; side /= 2) {
-    pack_level(side, values, map.words.data() + static_cast<std::size_t>(side) * side);
+    pack_level(side, values, map.words.data() + static_cast<std::size_t>(side) * side, workers);
     if (side == 1) return map;
-    values = filter_down(side, values);
+    values = filter_down(side, values, workers);
   }
 }
 

@@ -8,6 +8,10 @@
 #include <tuple>
 #include <vector>
 
+namespace swell {
+class Workers;
+}
+
 namespace swell::texture {
 
 // The 2 x 2 neighbourhood of a texel, channel after channel: (i,j) (i+1,j) (i,j+1) (i+1,j+1), each
@@ -29,8 +33,8 @@ struct CoverMap {
 
 // From size x size values, row-major; sample (i, j) lies on the lattice at u = i / size. Values are
 // clamped. Mip levels by the tent filter [1 2 1]/4 along each axis, as pack_map2's: they keep the
-// mean. Single-threaded; 60 ms for 1024 x 1024.
-CoverMap pack_cover(int size, std::vector<glm::vec4> values);
+// mean.
+CoverMap pack_cover(int size, std::vector<glm::vec4> values, Workers& workers);
 
 // The four channels at a place in texels of the finest level, bilinearly; finite, within 1e9. The
 // map repeats.

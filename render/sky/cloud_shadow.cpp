@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/for_each_row.h"
 #include "render/frame/parts.h"
 #include "render/frame/profile.h"
 #include "render/sky/clouds.h"
 #include "render/sky/sky_maps.h"
 #include "render/sky/volume_clouds.h"
-#include "render/world/for_each_row.h"
 #include "render/world/world_state.h"
 #include "sky/sky_light.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "math/for_each_row.h"
 #include "math/random.h"
-#include "render/world/for_each_row.h"
 #include "texture/improved_noise.h"
 
 namespace swell::render {

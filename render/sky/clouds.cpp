@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "math/for_each_row.h"
 #include "math/smoothstep.h"
 #include "ocean/open_sea/sea_state.h"
 #include "render/sky/sky_maps.h"
-#include "render/world/for_each_row.h"
 #include "render/world/world_state.h"
 #include "sky/sky_light.h"
 #include "texture/perlin.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "math/elementary.h"
+#include "math/for_each_row.h"
 #include "render/sky/sky_maps.h"
 #include "render/sky/volume_clouds.h"
-#include "render/world/for_each_row.h"
 #include "render/world/world_state.h"
 #include "sky/atmosphere.h"
 

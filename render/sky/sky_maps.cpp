@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "math/elementary.h"
+#include "math/for_each_row.h"
 #include "render/sky/clouds.h"
-#include "render/world/for_each_row.h"
 #include "render/world/rgb_code.h"
 #include "render/world/world_state.h"
 #include "sky/sky_light.h"

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "math/for_each_row.h"
 #include "math/large_array.h"
 #include "math/smoothstep.h"
-#include "render/world/for_each_row.h"
 
 namespace swell::render {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 
 #include "math/check.h"
+#include "math/for_each_row.h"
 #include "math/large_array.h"
-#include "render/world/for_each_row.h"
 
 namespace swell::render {
 namespace {

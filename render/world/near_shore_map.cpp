@@ -4,12 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include "math/for_each_row.h"
 #include "math/large_array.h"
 #include "math/lattice.h"
 #include "ocean/coast/shelter.h"
 #include "ocean/coast/surf_fronts.h"
 #include "ocean/open_sea/sea.h"
-#include "render/world/for_each_row.h"
 #include "render/world/world_state.h"
 #include "scene/coast.h"
 #include "terrain/shore_map.h"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "math/for_each_row.h"
 #include "math/large_array.h"
 #include "math/stop.h"
-#include "render/world/for_each_row.h"
 #include "render/world/ground_cover.h"
 #include "render/world/rgb_code.h"
 #include "render/world/world_state.h"
@@ -94,18 +94,20 @@ CoverMaps pack_ground(const Relief& relief, double step_m, const std::vector<Gro
   const std::vector<float> sky_seen = find_sky_seen(relief.size, relief.height_m, step_m, workers);
   std::array<std::vector<glm::vec4>, std::tuple_size_v<CoverMaps>> values;
   for (auto& four : values) four = make_large<glm::vec4>(places.size());
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    if (k % kTerrainMapSize == 0) check_stop();
-    const GroundCover cover = cover_of(places[k], materials);
-    const auto channel = [&](std::size_t n) -> float& {
-      return values[n / 4][k][static_cast<glm::length_t>(n % 4)];
-    };
-    for (std::size_t n = 0; n < kMappedCovers; ++n) channel(n) = cover[static_cast<Cover>(n)];
-    channel(kSkySeenChannel) = sky_seen[k];
-  }
+  for_each_row(relief.size, workers, [&](int j) {
+    for (int i = 0; i < relief.size; ++i) {
+      const std::size_t k = static_cast<std::size_t>(j) * relief.size + i;
+      const GroundCover cover = cover_of(places[k], materials);
+      const auto channel = [&](std::size_t n) -> float& {
+        return values[n / 4][k][static_cast<glm::length_t>(n % 4)];
+      };
+      for (std::size_t n = 0; n < kMappedCovers; ++n) channel(n) = cover[static_cast<Cover>(n)];
+      channel(kSkySeenChannel) = sky_seen[k];
+    }
+  });
   CoverMaps maps;
   for (std::size_t n = 0; n < maps.size(); ++n)
-    maps[n] = texture::pack_cover(relief.size, std::move(values[n]));
+    maps[n] = texture::pack_cover(relief.size, std::move(values[n]), workers);
   return maps;
 }
 
@@ -212,7 +214,7 @@ TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain,
                   [](int i, int j) { return mirrored_noise(2 * i, 2 * j); });
 
   TerrainMaps maps;
-  // Packing takes one thread each, painting all.
+  // Packing slopes takes one thread each.
   workers.run_both(
       [&] {
         maps.ground = pack_ground(relief, step_m, places, materials, workers);

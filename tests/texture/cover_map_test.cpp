@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "math/parallel.h"
 #include "texture/on_every_target.h"
 #include "texture/sample_packets.h"
 
@@ -42,8 +44,13 @@ double mean(const CoverMap& map, int level, std::size_t channel) {
   return sum / (side * side);
 }
 
+CoverMap packed(int size, std::vector<glm::vec4> values) {
+  Workers workers(2);
+  return pack_cover(size, std::move(values), workers);
+}
+
 TEST(CoverMap, HasTheSameMeanOnEveryLevel) {
-  const CoverMap map = pack_cover(64, random_values(64));
+  const CoverMap map = packed(64, random_values(64));
   EXPECT_EQ(map.levels, 7);
   for (std::size_t channel = 0; channel < 4; ++channel)
     for (int level = 1; level < map.levels; ++level)
@@ -51,14 +58,14 @@ TEST(CoverMap, HasTheSameMeanOnEveryLevel) {
 }
 
 TEST(CoverMap, KeepsNothingAndAllExact) {
-  const CoverMap map = pack_cover(8, std::vector<glm::vec4>(64, {0.0f, 1.0f, -3.0f, 4.0f}));
+  const CoverMap map = packed(8, std::vector<glm::vec4>(64, {0.0f, 1.0f, -3.0f, 4.0f}));
   for (std::size_t channel = 0; channel < 4; ++channel)
     EXPECT_EQ(texel(map, 0, 3, 5, channel), channel % 2 == 0 ? 0.0 : 1.0);
 }
 
 TEST_P(CoverSamples, AreBilinear) {
   for (const int size : {1, 2, 8, 64}) {
-    const CoverMap map = pack_cover(size, random_values(size));
+    const CoverMap map = packed(size, random_values(size));
     std::vector<int> x_fx8, y_fx8, level;
     for (std::uint64_t n = 0; n < 999; ++n) {
       x_fx8.push_back(static_cast<int>(random_uniform(1, n) * 3.0 * 256 * size) - 256 * size);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "math/bits_hash.h"
+#include "math/parallel.h"
 #include "texture/packed_texels.h"
 #include "texture/rgba_texels.h"
 #include "texture/sample_packets.h"
@@ -80,7 +81,8 @@ TEST_P(TargetBitsOfSamples, OfPackedMaps) {
   std::vector<glm::vec4> values;
   for (const float value : random_floats(kBitsSize * kBitsSize, 0.0, 1.0, 4))
     values.emplace_back(value, 1.0f - value, value * value, 0.5f * value);
-  const CoverMap cover = pack_cover(kBitsSize, values);
+  Workers workers(2);
+  const CoverMap cover = pack_cover(kBitsSize, values, workers);
   EXPECT_EQ(
       hash_of_samples(cover.levels, [&](const BlockPlaces& at) { return sample_cover(cover, at); }),
       0x9431def9798e58d7u);
