@@ -13,8 +13,9 @@ namespace swell::apps {
 
 // Subscribes to /clock, if the clock comes from outside, and to /FRAME/pose of the bodies of
 // `inputs`, with best effort, to which publishers of both kinds are heard: what the network loses
-// is missing. Poses that came before a clock of the same publisher are put in before it. What this
-// process publishes is not heard.
+// is missing. Poses that came before a clock are put in before it; those of one publisher come in
+// its order if the domain's environment is ordered (environment.h). What this process publishes is
+// not heard.
 class DdsInputs : public InputSource {
  public:
   // Both have to outlive it. Throws std::runtime_error.

@@ -84,9 +84,16 @@ std::string discovery(DiscoveryRange range, std::vector<std::string> peers) {
   return list.empty() ? text : text + element("Peers", list);
 }
 
+// Without multicast.
+bool is_quiet(const DdsEnvironment& environment) {
+  return !environment.is_loopback_alone && (environment.range == DiscoveryRange::kOff ||
+                                            environment.range == DiscoveryRange::kThisMachine);
+}
+
 }  // namespace
 
-DdsEnvironment read_dds_environment(const std::function<std::string(const char*)>& variable) {
+DdsEnvironment read_dds_environment(const std::function<std::string(const char*)>& variable,
+                                    bool is_ordered) {
   DdsEnvironment environment;
   environment.domain = domain_of(variable("ROS_DOMAIN_ID"));
   environment.range = range_of(variable("ROS_AUTOMATIC_DISCOVERY_RANGE"));
@@ -101,18 +108,19 @@ DdsEnvironment read_dds_environment(const std::function<std::string(const char*)
     peers.clear();
   }
 
-  if (environment.range != DiscoveryRange::kSystemDefault) {
-    // A loopback interface that can multicast does: Humble's nodes find each other there by it.
-    std::string general;
-    if (environment.is_loopback_alone)
-      general = element("Interfaces", "<NetworkInterface address=\"127.0.0.1\"/>");
-    else if (environment.range != DiscoveryRange::kSubnet)
-      general = element("AllowMulticast", "false");
+  // A loopback interface that can multicast does: Humble's nodes find each other there by it.
+  std::string general, found;
+  if (environment.is_loopback_alone)
+    general = element("Interfaces", "<NetworkInterface address=\"127.0.0.1\"/>");
+  if (is_quiet(environment))
+    general += element("AllowMulticast", "false");
+  else if (is_ordered)
+    general += element("AllowMulticast", "spdp");
+  if (environment.range != DiscoveryRange::kSystemDefault)
+    found = element("Discovery", discovery(environment.range, peers));
+  if (!general.empty() || !found.empty())
     environment.configuration =
-        element("CycloneDDS",
-                element("Domain", element("General", general) +
-                                      element("Discovery", discovery(environment.range, peers))));
-  }
+        element("CycloneDDS", element("Domain", element("General", general) + found));
   const std::string own = variable("CYCLONEDDS_URI");
   if (!own.empty()) {
     if (!environment.configuration.empty()) environment.configuration += ",";

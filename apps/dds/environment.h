@@ -31,6 +31,10 @@ struct DdsEnvironment {
 //   CYCLONEDDS_URI                 Cyclone's configuration, which comes last
 // Discovery is configured as ROS 2's nodes configure it (rmw_cyclonedds: interfaces of Humble,
 // ranges of Iron and later). Throws OptionError for other values.
-DdsEnvironment read_dds_environment(const std::function<std::string(const char*)>& variable);
+//   is_ordered: what one publisher sends on several topics comes in its order. Cyclone sends what
+//   several subscribers hear by multicast, which overtakes what is sent to one; others send nothing
+//   but discovery by multicast to a participant that wants no more.
+DdsEnvironment read_dds_environment(const std::function<std::string(const char*)>& variable,
+                                    bool is_ordered);
 
 }  // namespace swell::apps

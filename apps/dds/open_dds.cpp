@@ -33,8 +33,8 @@ std::string variable(const char* name) {
 
 }  // namespace
 
-std::unique_ptr<Transport> open_dds(bool is_patient) {
-  return std::make_unique<DdsTransport>(read_dds_environment(variable), is_patient);
+std::unique_ptr<Transport> open_dds(bool is_lock_step) {
+  return std::make_unique<DdsTransport>(read_dds_environment(variable, is_lock_step), is_lock_step);
 }
 
 }  // namespace swell::apps

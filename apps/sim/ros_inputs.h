@@ -13,10 +13,12 @@ namespace swell::apps {
 // What --rig-keys says of them.
 inline constexpr std::string_view kRosInputsText = R"(
 --dds on: messages are topics of ROS 2 over DDS, in real time or with --clock input in lock-step,
-reliable and volatile, /tf_static transient local, of the node /swell_sim. A body with pose = "input" hears its poses on
-/FRAME/pose (geometry_msgs/msg/PoseStamped, stamped, in "map"), --clock input the time on /clock;
-with --inputs neither is heard. ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE,
-ROS_STATIC_PEERS and CYCLONEDDS_URI are obeyed as by ROS 2's nodes.
+reliable and volatile, /tf_static transient local, of the node /swell_sim. A body with pose =
+"input" hears its poses on /FRAME/pose (geometry_msgs/msg/PoseStamped, stamped, in "map"), --clock
+input the time on /clock; with --inputs neither is heard. One program publishes the pose of a time
+and then its clock: they come in this order, and messages of this time have this pose.
+ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS and
+CYCLONEDDS_URI are obeyed as by ROS 2's nodes.
 )";
 
 // The topic of a body's poses: "/FRAME/pose".

@@ -30,10 +30,10 @@ class Transport {
   virtual std::string audience() const = 0;
 };
 
-// ROS 2 over DDS (apps/dds), as its environment variables say. Where subscribers take less than is
-// published, it waits for them if `is_patient`; else they miss the oldest. Throws OptionError, also
-// where it is not built.
-std::unique_ptr<Transport> open_dds(bool is_patient);
+// ROS 2 over DDS (apps/dds), as its environment variables say. In lock-step it waits for
+// subscribers that take less than is published, who else miss the oldest, and what one publisher
+// sends comes in its order. Throws OptionError, also where it is not built.
+std::unique_ptr<Transport> open_dds(bool is_lock_step);
 
 // Gazebo's (apps/gazebo), as its environment variables say. `poses` is the topic of bodies' poses;
 // empty: /model/FRAME/pose. Throws OptionError where it is not built.

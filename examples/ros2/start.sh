@@ -7,9 +7,6 @@ here=$(cd "$(dirname "$0")" && pwd)
 seen=${1:-seen}
 seconds=${2:-10}
 scene=${3:-$here/sea.toml}
-# Cyclone gives a topic with several readers to all at once by multicast, which may overtake others. A pose that came
-# after its clock would be too late, so all is sent to each reader by itself; only finding each other is by multicast.
-export CYCLONEDDS_URI="${CYCLONEDDS_URI:-<General><AllowMulticast>spdp</AllowMulticast></General>}"
 
 build() { cmake -S "$here" -B "$here/build" -DCMAKE_BUILD_TYPE=Release && cmake --build "$here/build"; }
 said=$(build 2>&1) || { echo "$said" >&2; exit 1; }

@@ -13,11 +13,13 @@
 namespace swell::apps {
 namespace {
 
-DdsEnvironment read(const std::map<std::string, std::string>& variables) {
-  return read_dds_environment([&](const char* name) {
-    const auto found = variables.find(name);
-    return found == variables.end() ? std::string() : found->second;
-  });
+DdsEnvironment read(const std::map<std::string, std::string>& variables, bool is_ordered = false) {
+  return read_dds_environment(
+      [&](const char* name) {
+        const auto found = variables.find(name);
+        return found == variables.end() ? std::string() : found->second;
+      },
+      is_ordered);
 }
 
 bool says(const DdsEnvironment& environment, const char* text) {
@@ -80,6 +82,22 @@ TEST(DdsEnvironment, MayBeOffOrTheSystemsOwn) {
   EXPECT_TRUE(says(off, "<Tag>ros_discovery_off_"));
   EXPECT_FALSE(says(off, "10.0.0.1"));
   EXPECT_EQ(read({{"ROS_AUTOMATIC_DISCOVERY_RANGE", "SYSTEM_DEFAULT"}}).configuration, "");
+}
+
+TEST(DdsEnvironment, TakesNothingButDiscoveryByMulticastWhereOrderCounts) {
+  constexpr bool kIsOrdered = true;
+  constexpr const char* kRange = "ROS_AUTOMATIC_DISCOVERY_RANGE";
+  for (const std::map<std::string, std::string>& variables : {std::map<std::string, std::string>(),
+                                                              {{"ROS_LOCALHOST_ONLY", "1"}},
+                                                              {{kRange, "SYSTEM_DEFAULT"}}}) {
+    EXPECT_TRUE(says(read(variables, kIsOrdered), "<AllowMulticast>spdp<"));
+    EXPECT_FALSE(says(read(variables), "AllowMulticast"));
+  }
+  // Where there is no multicast at all, it is not opened.
+  for (const char* range : {"OFF", "LOCALHOST"}) {
+    EXPECT_TRUE(says(read({{kRange, range}}, kIsOrdered), "<AllowMulticast>false<"));
+    EXPECT_FALSE(says(read({{kRange, range}}, kIsOrdered), "spdp"));
+  }
 }
 
 TEST(DdsEnvironment, NamesPeersAndEndsWithCyclonesOwnConfiguration) {
