@@ -27,17 +27,19 @@ FramePose frame_pose(const glm::dvec3& position_m, const glm::dquat& orientation
 
 }  // namespace
 
-void InputPoses::add(std::string_view frame, const StampedPose& pose) {
+bool InputPoses::add(std::string_view frame, const StampedPose& pose) {
   auto found = tracks_.find(frame);
   if (found == tracks_.end()) found = tracks_.emplace(std::string(frame), Track()).first;
   Track& track = found->second;
   const auto at = std::ranges::lower_bound(track, pose.stamp_ns, {}, &StampedPose::stamp_ns);
   if (at != track.end() && at->stamp_ns == pose.stamp_ns) {
+    const bool is_new = *at != pose;
     *at = pose;
-    return;
+    return is_new;
   }
   track.insert(at, pose);
   if (track.size() > kMostPoses) track.pop_back();  // the one that is farthest ahead
+  return true;
 }
 
 void InputPoses::set_horizon(const Moment& moment) {

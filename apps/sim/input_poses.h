@@ -20,14 +20,17 @@ struct StampedPose {
   std::int64_t stamp_ns = 0;
   glm::dvec3 position_m{0.0};                  // in "map"
   glm::dquat orientation{1.0, 0.0, 0.0, 0.0};  // w, x, y, z; of length 1
+
+  bool operator==(const StampedPose&) const = default;
 };
 
 // Answers depend on what was added and on the horizon alone, not on the order of adding. Used by
 // one thread at a time.
 class InputPoses {
  public:
-  // Keeps a pose; one of the same stamp gives way. Of a body at most 20,000 are kept.
-  void add(std::string_view frame, const StampedPose& pose);
+  // Keeps a pose; one of the same stamp gives way. Of a body at most 20,000 are kept. False if it
+  // was there already.
+  bool add(std::string_view frame, const StampedPose& pose);
 
   void forget_all() { tracks_.clear(); }
 

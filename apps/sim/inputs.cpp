@@ -57,7 +57,7 @@ void Inputs::put_pose(const InputOrigin& from, std::string_view frame, const Sta
   }
   StampedPose normal = pose;
   normal.orientation = glm::normalize(pose.orientation);
-  put({"", std::string(frame), normal});
+  put({std::string(from.topic), std::string(frame), normal});
 }
 
 void Inputs::put_disturbance(const InputOrigin& from, const StampedDisturbance& disturbance) {
@@ -126,8 +126,11 @@ bool Inputs::next_tick(Tick& tick, InputPoses& poses, FunctionRef<bool()> is_sto
       poses.forget_all();
       disturbances_.forget_all();
     }
-    for (const Event& other : come)
-      if (!jumps || other.stamp_ns() <= t_ns) keep(other, poses);
+    for (const Event& other : come) {
+      if (jumps && other.stamp_ns() > t_ns) continue;
+      const bool is_late = !jumps && clock_ns_ && other.stamp_ns() <= *clock_ns_;
+      if (keep(other, poses) && is_late) tell_late(other);
+    }
     poses.set_horizon({t_ns});
     disturbances_.set_horizon({t_ns});
     tick = {t_ns, !clock_ns_ || jumps};
@@ -145,11 +148,20 @@ void Inputs::take_all(InputPoses& poses, const Moment& horizon) {
   disturbances_.set_horizon(horizon);
 }
 
-void Inputs::keep(const Event& event, InputPoses& poses) {
-  if (event.disturbance)
-    disturbances_.add(*event.disturbance);
-  else
-    poses.add(event.frame, event.pose);
+bool Inputs::keep(const Event& event, InputPoses& poses) {
+  if (!event.disturbance) return poses.add(event.frame, event.pose);
+  disturbances_.add(*event.disturbance);
+  return true;
+}
+
+// A drop may fall into water that is there already; a body was somewhere else.
+void Inputs::tell_late(const Event& event) {
+  if (event.disturbance) return;
+  tell_once(event.topic + " late",
+            fmt::format("warning: {}: the pose of {} for {} s came after the clock had shown {} s, "
+                        "whose messages are without it; publish poses before their clock",
+                        event.topic, event.frame, Moment{event.pose.stamp_ns}.t_s(),
+                        Moment{*clock_ns_}.t_s()));
 }
 
 void Inputs::tell_waiting(std::string_view frame) {

@@ -47,7 +47,9 @@ class Inputs {
   void put_clock(const InputOrigin& from, std::int64_t t_ns);
 
   // Of a body's frame in "map": at most 1e6 m along each axis, with an orientation of length 1 to
-  // within 1 %, stamped from 0 to 2^31 s. Put those of a time before the clock of that time.
+  // within 1 %, stamped from 0 to 2^31 s. Put those of a time before the clock of that time: one
+  // that comes after it is kept, but what is of that time has been published without it, which one
+  // line says the first time.
   void put_pose(const InputOrigin& from, std::string_view frame, const StampedPose& pose);
 
   // A drop, a footstep or a rotor, stamped as poses are, with values that scenes allow. Put those
@@ -88,7 +90,7 @@ class Inputs {
 
  private:
   struct Event {
-    std::string topic;  // of a clock
+    std::string topic;  // of a clock or a pose
     std::string frame;  // of a pose
     StampedPose pose;   // without a frame: the clock's time
     std::optional<StampedDisturbance> disturbance = {};
@@ -98,8 +100,9 @@ class Inputs {
   };
 
   void put(Event event);
-  void keep(const Event& event, InputPoses& poses);  // it is no clock
+  bool keep(const Event& event, InputPoses& poses);  // it is no clock; false: it was there
   bool take(Event& event);                           // with the mutex held
+  void tell_late(const Event& event);
   void tell(const InputOrigin& from, const std::string& text);
   void tell_once(const std::string& key, const std::string& line);
 

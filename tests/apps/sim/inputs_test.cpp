@@ -168,6 +168,25 @@ TEST(Inputs, StartAgainWhereTheClockJumps) {
   EXPECT_FALSE(taken.poses.at("boat", {30'000 * kMs}));
 }
 
+TEST(Inputs, TellOfAPoseThatComesAfterItsClock) {
+  Taken taken;
+  take_all(
+      [](Inputs& inputs) {
+        for (const std::int64_t t_ns : {0, 10, 20, 30}) {
+          if (t_ns != 20) inputs.put_pose({"/boat/pose"}, "boat", pose_of(t_ns * kMs, {1, 0, 0}));
+          inputs.put_clock({"/clock"}, t_ns * kMs);
+          // Said again, it is no other; nor is one that is too early.
+          if (t_ns == 10) inputs.put_pose({"/boat/pose"}, "boat", pose_of(10 * kMs, {1, 0, 0}));
+          if (t_ns == 20) inputs.put_pose({"/boat/pose"}, "boat", pose_of(20 * kMs, {2, 0, 0}));
+        }
+      },
+      taken);
+  EXPECT_EQ(taken.said,
+            "warning: /boat/pose: the pose of boat for 0.02 s came after the clock had shown 0.02 "
+            "s, whose messages are without it; publish poses before their clock\n");
+  EXPECT_EQ(taken.poses.at("boat", {20 * kMs})->position_m.x, 2.0);
+}
+
 struct BadPose {
   const char* said;
   StampedPose pose;
@@ -264,7 +283,7 @@ TEST(Inputs, TenThousandDamagedLinesAreTakenOrLeftOut) {
       },
       taken);
   EXPECT_GT(taken.ticks.size(), 100u);
-  EXPECT_LE(std::ranges::count(taken.said, '\n'), 2);
+  EXPECT_LE(std::ranges::count(taken.said, '\n'), 3);  // damages, jumps, poses that are late
 }
 
 // ---- Messages of ROS 2
@@ -355,7 +374,7 @@ TEST(RosInputs, TenThousandDamagedMessagesAreTakenOrLeftOut) {
       },
       taken);
   EXPECT_GT(taken.ticks.size(), 100u);
-  EXPECT_EQ(std::ranges::count(taken.said, '\n'), 3);  // a line for each topic, one for jumps
+  EXPECT_EQ(std::ranges::count(taken.said, '\n'), 4);  // two of damages, jumps, poses that are late
 }
 
 }  // namespace
