@@ -205,17 +205,17 @@ class Transport(unittest.TestCase):
         return [json.loads(line) for line in lines], mcap_reader.read(path).messages
 
     def test_a_listener_gets_what_a_recording_has(self):
-        heard, recorded = self.heard(2)
+        heard, recorded = self.heard(10)
         by_topic, expected = collections.defaultdict(list), collections.defaultdict(list)
         for one in heard:
             by_topic[one["topic"]].append(one["message"])
         for message in recorded:
             expected[message.topic].append(message.values)
         self.assertEqual(set(expected), set(TOPICS))
-        expected["/tf_static"] *= 2  # again in each second
+        expected["/tf_static"] *= 10  # again in each second
         self.assertEqual({topic: len(messages) for topic, messages in by_topic.items()},
                          {TOPICS[topic][0]: len(messages) for topic, messages in expected.items()})
-        self.assertEqual(len(by_topic["/camera/image"]), 40)
+        self.assertEqual(len(by_topic["/camera/image"]), 200)
         for topic, messages in expected.items():
             for n, values in enumerate(messages):
                 classes = expected["/camera/class"][n] if topic == "/camera/id" else None
