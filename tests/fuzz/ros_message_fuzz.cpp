@@ -1,5 +1,6 @@
-// Inputs of swell-sim: clocks and poses as messages of ROS 2 (first byte c, p) and as lines of JSON
-// (any other).
+// Inputs of swell-sim: clocks and poses as messages of ROS 2 (first byte c, p), and these and
+// disturbances as lines of JSON (any other).
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -26,6 +27,10 @@ void read_input(std::uint8_t kind, std::span<const std::uint8_t> bytes) {
   inputs.put_clock({"/clock"}, 2'000'000'000'000'000'000);  // behind the pose, if there is one
   apps::InputPoses poses;
   for (apps::Inputs::Tick tick; inputs.next_tick(tick, poses, [] { return false; });) {
+    for (const ocean::Disturbance& made : inputs.disturbances().at({tick.t_ns}))
+      expect(std::isfinite(made.position_m.x + made.position_m.y) &&
+                 std::abs(made.height_m) <= 10.0 && made.radius_m >= 0.02,
+             "a disturbance is one that scenes may have");
     const auto pose = poses.at("boat", {tick.t_ns});
     if (!pose) continue;
     for (int i = 0; i < 3; ++i) {

@@ -260,14 +260,15 @@ TEST(Inputs, TenThousandDamagedLinesAreTakenOrLeftOut) {
   const std::string whole[] = {
       R"({"clock_ns": 20000000})",
       R"({"body": "boat", "stamp_ns": 10000000, "position": [1, -2, 3e1], )"
-      R"("orientation": [0.0, 0, 0, 1]})"};
+      R"("orientation": [0.0, 0, 0, 1]})",
+      R"({"disturbance": {"kind": "drop", "position_m": [1, 2], "height_m": 0.2}, "stamp_ns": 0})"};
   const char* words[] = {"1e999", "-1", "null", "\"", "[", "{", "9223372036854775808", "\\u0000"};
   std::mt19937_64 random(9);
   Taken taken;
   take_all(
       [&](Inputs& inputs) {
         for (int n = 0; n < 10'000; ++n) {
-          std::string line = whole[random() % 2];
+          std::string line = whole[random() % 3];
           for (auto damages = random() % 4; damages-- > 0;) {
             const std::size_t at = random() % line.size();
             if (random() % 3 == 0)
