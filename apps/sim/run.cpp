@@ -62,7 +62,12 @@ class Run {
         before_s = costs_.duration_s;
         tell_waiting({tick.t_ns});
       }
-      for (Schedule::Due due; !is_stopped_() && schedule.next(due, tick.t_ns);) publish(due);
+      std::optional<std::int64_t> begun_ns;  // a moment that has begun is published whole
+      for (Schedule::Due due; schedule.next(due, tick.t_ns);) {
+        if (due.stamp_ns != begun_ns && is_stopped_()) break;
+        begun_ns = due.stamp_ns;
+        publish(due);
+      }
       costs_.duration_s = before_s + Moment{tick.t_ns - first_ns}.t_s();
       if (schedule.ends_at(tick.t_ns)) break;
     }

@@ -28,8 +28,8 @@ struct RunSettings {
 
 // Publishes all messages in the order of their stamps until the duration is over, the outside clock
 // has ended or is_stopped() holds, then finishes the outputs; without one the messages are only
-// made. Outputs are written to by a thread of their own. `poses` is what the simulation's bodies
-// from outside look at.
+// made. In lock-step a moment that has begun is published whole. Outputs are written to by a thread
+// of their own. `poses` is what the simulation's bodies from outside look at.
 Costs run_simulation(const Simulation& simulation, const RunSettings& settings,
                      std::span<MessageOutput* const> outputs, Inputs& inputs, InputPoses& poses,
                      FunctionRef<bool()> is_stopped);

@@ -231,6 +231,24 @@ TEST(LockStep, StartsItsSensorsAgainWhereTheClockGoesBack) {
   EXPECT_EQ(stamps, (std::vector<std::int64_t>{1'100, 1'200, 200}));
 }
 
+TEST(LockStep, ThatIsStoppedHasPublishedItsLastMomentWhole) {
+  bool is_stopped = false;
+  Simulation simulation;
+  std::vector<std::string> made;
+  for (const char* name : {"a", "b", "c"})
+    simulation.sources.push_back({name, "", 100.0, [&, name](const Moment& moment, const Emit&) {
+                                    made.push_back(name + std::to_string(moment.t_ns / kStep_ns));
+                                    if (made.back() == "a10") is_stopped = true;
+                                  }});
+  Inputs inputs({});
+  InputPoses poses;
+  inputs.put_clock(kClockTopic, 0);
+  inputs.put_clock(kClockTopic, 50 * kStep_ns);
+  run_simulation(simulation, {.is_clock_input = true}, {}, inputs, poses,
+                 [&] { return is_stopped; });
+  EXPECT_EQ(made, (std::vector<std::string>{"a0", "b0", "c0", "a10", "b10", "c10"}));
+}
+
 TEST(LockStep, AnObjectIsDrawnWhereItsPoseFromOutsideIs) {
   const std::string rig =
       "[[body]]\nframe = \"boat\"\nmount = \"ball\"\npose = \"input\"\n[[camera]]\nname = \"eye\"\n"
