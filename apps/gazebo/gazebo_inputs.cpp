@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <mutex>
 #include <vector>
 
@@ -9,6 +10,18 @@
 #include "apps/shared/program.h"
 
 namespace swell::apps {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+
+bool is_read(const char* bytes, std::size_t size, google::protobuf::Message& message) {
+#if GOOGLE_PROTOBUF_VERSION < 4022000  // newer ones write by Abseil's log
+  const google::protobuf::LogSilencer silencer;
+#endif
+  return size <= kMostBytes && message.ParseFromArray(bytes, static_cast<int>(size));
+}
+
+}  // namespace
 
 struct GazeboInputs::State {
   // What the handlers share: the transport may call them once more while it is closed.
@@ -19,13 +32,22 @@ struct GazeboInputs::State {
     GazeboTakers takers;
   };
 
+  // Bytes that are no such message are told of as all that is wrong is: the libraries would write
+  // lines of their own for each.
   template <class Message, class Take>
   void listen(const std::string& topic, const Take& take) {
-    std::function<void(const Message&)> handle = [to = listening, take](const Message& message) {
+    const std::string type = Message().GetTypeName();
+    const auto handle = [to = listening, topic, type, take](const char* bytes, std::size_t size,
+                                                            const gz_transport::MessageInfo&) {
       const std::lock_guard lock(to->mutex);
-      if (!to->is_over) take(message, *to);
+      if (to->is_over) return;
+      Message message;
+      if (is_read(bytes, size, message))
+        take(message, *to);
+      else
+        to->takers.refuse(topic, fmt::format("got {} bytes that are no {}", size, type));
     };
-    if (!node.Subscribe(topic, handle))
+    if (!node.SubscribeRaw(topic, handle, type))
       throw OptionError(
           fmt::format("command line: --gazebo-poses: got '{}', allowed a name that "
                       "Gazebo's transport takes",

@@ -5,10 +5,12 @@
 //     says "ready" when all are heard, then publishes lines 'TOPIC TEXT' of its input
 //   gazebo_peer visit COUNT TOPIC TYPE
 //     subscribes so many times, and goes again
+//   gazebo_peer damage COUNT TOPIC TYPE TEXT
+//     publishes so many messages whose bytes are damaged, once it is heard
 //   gazebo_peer heights
 //     asks /water/heights for each line TEXT of its input: a line of JSON, or "refused"
-// TYPE is a message's name without its package, TEXT protobuf's text format. All but the third end
-// with their input.
+// TYPE is a message's name without its package, TEXT protobuf's text format. All but visit and
+// damage end with their input.
 #include <google/protobuf/text_format.h>
 #include <google/protobuf/util/json_util.h>
 
@@ -20,10 +22,12 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "apps/gazebo/mutation.h"
 #include "apps/gazebo/names.h"
 
 namespace {
@@ -133,6 +137,21 @@ int visit(const std::vector<std::string>& words) {
   return 0;
 }
 
+int damage(const std::vector<std::string>& words) {
+  Node node;
+  const auto message = message_of(package() + words.at(2));
+  if (!google::protobuf::TextFormat::ParseFromString(words.at(3), message.get())) return 1;
+  const std::string bytes = message->SerializeAsString();
+  auto publisher = node.Advertise(words.at(1), message->GetTypeName());
+  while (!publisher.HasConnections()) std::this_thread::sleep_for(milliseconds(20));
+  std::this_thread::sleep_for(milliseconds(1000));
+  std::mt19937 random(3);
+  for (int n = std::stoi(words.at(0)); n > 0; --n)
+    publisher.PublishRaw(swell::apps::mutated(bytes, random), message->GetTypeName());
+  std::this_thread::sleep_for(milliseconds(500));
+  return 0;
+}
+
 template <class Request, class Reply>
 int ask(const std::string& service) {
   Node node;
@@ -155,6 +174,7 @@ int main(int argc, char** argv) {
   if (mode == "listen") return listen(words);
   if (mode == "say") return say(words);
   if (mode == "visit") return visit(words);
+  if (mode == "damage") return damage(words);
   if (mode == "heights") return ask<msgs::Pose_V, msgs::Pose_V>("/water/heights");
   return 2;
 }

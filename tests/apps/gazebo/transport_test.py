@@ -258,6 +258,24 @@ class Transport(unittest.TestCase):
         self.assertEqual(len([m for m in mcap_reader.read(self.folder / "transport.mcap").messages
                               if m.topic == "/camera/image_raw"]), 20)
 
+    def test_damaged_messages_are_told_of_in_a_line(self):
+        rig = self.folder / "rig.toml"
+        rig.write_text('[[body]]\nframe = "boat"\npose = "input"\n[[pose]]\nname = "tip"\nbody = "boat"\n')
+        run = Process(self, BIN / "swell-sim", "--scene", SCENE, "--rig", rig, "--gazebo", "on", "--clock", "input",
+                      stderr=subprocess.PIPE)
+        self.assertIn("gazebo: partition", run.stderr.readline())
+        stamp = "header { stamp { sec: 3 nsec: 250000000 } }"
+        for words in (("/model/boat/pose", "Pose", f'{stamp} name: "boat" position {{ x: 3 }} orientation {{ w: 1 }}'),
+                      ("/clock", "Clock", "sim { sec: 3 nsec: 250000000 }")):
+            self.assertEqual(self.peer("damage", 2000, *words).wait(60), 0)
+        run.terminate()
+        _, said = run.communicate(timeout=60)
+        self.assertEqual(run.returncode, 0, said)
+        lines = said.splitlines()
+        self.assertTrue(all(line.startswith(("warning: ", "note: ")) for line in lines), said)
+        for topic in ("/model/boat/pose", "/clock"):
+            self.assertEqual(sum(line.startswith(f"warning: {topic}: ") for line in lines), 1, said)
+
     def test_the_water_service_answers_as_the_python_package(self):
         try:
             import numpy
