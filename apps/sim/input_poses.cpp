@@ -42,6 +42,11 @@ bool InputPoses::add(std::string_view frame, const StampedPose& pose) {
   return true;
 }
 
+bool InputPoses::reaches(std::string_view frame, const Moment& moment) const {
+  const Track* track = find(frame);
+  return track && track->back().stamp_ns >= moment.t_ns;
+}
+
 void InputPoses::set_horizon(const Moment& moment) {
   horizon_ns_ = moment.t_ns;
   for (auto& [frame, track] : tracks_) {

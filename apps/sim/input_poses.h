@@ -34,6 +34,9 @@ class InputPoses {
 
   void forget_all() { tracks_.clear(); }
 
+  // Whether a pose of this time or later is kept, whatever the horizon.
+  bool reaches(std::string_view frame, const Moment& moment) const;
+
   // Poses after this moment are not looked at, those 10 s before it no longer kept, but for the
   // last one.
   void set_horizon(const Moment& moment);

@@ -16,6 +16,7 @@ constexpr std::size_t kMostEvents = 65536;
 constexpr std::int64_t kSecond_ns = 1'000'000'000, kLatest_ns = kSecond_ns << 31;
 constexpr std::int64_t kJump_ns = 10 * kSecond_ns;
 constexpr double kFarthest_m = 1e6;  // as in rigs
+constexpr std::chrono::milliseconds kLookUp{50}, kPatience{500};
 
 bool is_time(std::int64_t t_ns) { return t_ns >= 0 && t_ns < kLatest_ns; }
 
@@ -103,41 +104,65 @@ bool Inputs::take(Event& event) {
   return true;
 }
 
-bool Inputs::next_tick(Tick& tick, InputPoses& poses, FunctionRef<bool()> is_stopped) {
-  std::vector<Event> come;  // since the last tick
-  std::unique_lock lock(mutex_);
+// The next one that shows another time, and what came before it; none at the end.
+std::optional<Inputs::Event> Inputs::take_clock(std::vector<Event>& before, Lock& lock,
+                                                FunctionRef<bool()> is_stopped) {
   for (Event event; !is_stopped();) {
     if (!take(event)) {
-      if (open_ == 0) return false;
-      has_come_.wait_for(lock, std::chrono::milliseconds(50));
-      continue;
+      if (open_ == 0) return std::nullopt;
+      has_come_.wait_for(lock, kLookUp);
+    } else if (!event.is_clock()) {
+      before.push_back(std::move(event));
+    } else if (event.stamp_ns() != clock_ns_) {
+      return event;
     }
-    if (!event.is_clock()) {
-      come.push_back(std::move(event));
-      continue;
-    }
-    const std::int64_t t_ns = event.pose.stamp_ns;
-    if (clock_ns_ == t_ns) continue;
-    const bool jumps = clock_ns_ && (t_ns < *clock_ns_ || t_ns - *clock_ns_ > kJump_ns);
-    if (jumps) {
-      tell_once(event.topic + " jumps",
-                fmt::format("note: {}: jumped from {} s to {} s; starting again there", event.topic,
-                            Moment{*clock_ns_}.t_s(), Moment{t_ns}.t_s()));
-      poses.forget_all();
-      disturbances_.forget_all();
-    }
-    for (const Event& other : come) {
-      if (jumps && other.stamp_ns() > t_ns) continue;
-      const bool is_late = !jumps && clock_ns_ && other.stamp_ns() <= *clock_ns_;
-      if (keep(other, poses) && is_late) tell_late(other);
-    }
-    poses.set_horizon({t_ns});
-    disturbances_.set_horizon({t_ns});
-    tick = {t_ns, !clock_ns_ || jumps};
-    clock_ns_ = t_ns;
-    return true;
   }
-  return false;
+  return std::nullopt;
+}
+
+// Takes what comes after a clock, while a body that was late has no pose of its time.
+void Inputs::await_late(const Moment& moment, InputPoses& poses, Lock& lock,
+                        FunctionRef<bool()> is_stopped) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto has_come = [&](const std::string& frame) { return poses.reaches(frame, moment); };
+  while (!std::ranges::all_of(late_frames_, has_come) && !is_stopped() &&
+         std::chrono::steady_clock::now() < end) {
+    if (events_.empty()) {
+      if (open_ == 0) return;
+      has_come_.wait_for(lock, kLookUp);
+      continue;
+    }
+    if (events_.front().is_clock() && events_.front().stamp_ns() != moment.t_ns) return;
+    Event event;
+    take(event);
+    if (!event.is_clock()) keep(event, poses);
+  }
+}
+
+bool Inputs::next_tick(Tick& tick, InputPoses& poses, FunctionRef<bool()> is_stopped) {
+  std::vector<Event> come;  // since the last tick
+  Lock lock(mutex_);
+  const std::optional<Event> clock = take_clock(come, lock, is_stopped);
+  if (!clock) return false;
+  const std::int64_t t_ns = clock->stamp_ns();
+  const bool jumps = clock_ns_ && (t_ns < *clock_ns_ || t_ns - *clock_ns_ > kJump_ns);
+  if (jumps) {
+    tell_once(clock->topic + " jumps",
+              fmt::format("note: {}: jumped from {} s to {} s; starting again there", clock->topic,
+                          Moment{*clock_ns_}.t_s(), Moment{t_ns}.t_s()));
+    poses.forget_all();
+    disturbances_.forget_all();
+  }
+  for (const Event& event : come) {
+    if (jumps && event.stamp_ns() > t_ns) continue;
+    if (keep(event, poses) && !jumps) find_late(event);
+  }
+  await_late({t_ns}, poses, lock, is_stopped);
+  poses.set_horizon({t_ns});
+  disturbances_.set_horizon({t_ns});
+  tick = {t_ns, !clock_ns_ || jumps};
+  clock_ns_ = t_ns;
+  return true;
 }
 
 void Inputs::take_all(InputPoses& poses, const Moment& horizon) {
@@ -154,12 +179,13 @@ bool Inputs::keep(const Event& event, InputPoses& poses) {
   return true;
 }
 
-// A drop may fall into water that is there already; a body was somewhere else.
-void Inputs::tell_late(const Event& event) {
-  if (event.disturbance) return;
+// Of a pose that came after its clock.
+void Inputs::find_late(const Event& event) {
+  if (event.disturbance || !clock_ns_ || event.pose.stamp_ns > *clock_ns_) return;
+  late_frames_.insert(event.frame);
   tell_once(event.topic + " late",
-            fmt::format("warning: {}: the pose of {} for {} s came after the clock had shown {} s, "
-                        "whose messages are without it; publish poses before their clock",
+            fmt::format("note: {}: the pose of {} for {} s came after the clock had shown {} s, "
+                        "whose messages are without it; from now on they wait for it",
                         event.topic, event.frame, Moment{event.pose.stamp_ns}.t_s(),
                         Moment{*clock_ns_}.t_s()));
 }

@@ -47,9 +47,8 @@ class Inputs {
   void put_clock(const InputOrigin& from, std::int64_t t_ns);
 
   // Of a body's frame in "map": at most 1e6 m along each axis, with an orientation of length 1 to
-  // within 1 %, stamped from 0 to 2^31 s. Put those of a time before the clock of that time: one
-  // that comes after it is kept, but what is of that time has been published without it, which one
-  // line says the first time.
+  // within 1 %, stamped from 0 to 2^31 s. Put those of a time before the clock of that time, or
+  // next_tick() has to wait for them.
   void put_pose(const InputOrigin& from, std::string_view frame, const StampedPose& pose);
 
   // A drop, a footstep or a rotor, stamped as poses are, with values that scenes allow. Put those
@@ -77,6 +76,9 @@ class Inputs {
   // starts again there as simulators do at a reset: what came before is forgotten, what came since
   // stays if it is of this time or before. One line says so the first time. False at the end of all
   // inputs, and once is_stopped() holds, which is asked every 50 ms.
+  // A pose that comes after the clock of its time is missing in what is of that time; one line says
+  // so the first time. From then on a time waits for a pose of this body: until one of this time or
+  // later has come or the clock has gone on, at most half a second.
   bool next_tick(Tick& tick, InputPoses& poses, FunctionRef<bool()> is_stopped);
 
   // Adds what has come, up to the horizon, for a loop with a clock of its own.
@@ -99,10 +101,17 @@ class Inputs {
     std::int64_t stamp_ns() const { return disturbance ? disturbance->stamp_ns : pose.stamp_ns; }
   };
 
+  using Lock = std::unique_lock<std::mutex>;
+
   void put(Event event);
   bool keep(const Event& event, InputPoses& poses);  // it is no clock; false: it was there
-  bool take(Event& event);                           // with the mutex held
-  void tell_late(const Event& event);
+  // With the mutex held:
+  bool take(Event& event);
+  std::optional<Event> take_clock(std::vector<Event>& before, Lock& lock,
+                                  FunctionRef<bool()> is_stopped);
+  void await_late(const Moment& moment, InputPoses& poses, Lock& lock,
+                  FunctionRef<bool()> is_stopped);
+  void find_late(const Event& event);
   void tell(const InputOrigin& from, const std::string& text);
   void tell_once(const std::string& key, const std::string& line);
 
@@ -114,8 +123,10 @@ class Inputs {
   bool is_stopped_ = false;
   std::mutex told_mutex_;
   std::set<std::string> told_;
-  std::optional<std::int64_t> clock_ns_;  // the loop's
-  InputDisturbances disturbances_;        // likewise
+  // The loop's:
+  std::optional<std::int64_t> clock_ns_;
+  std::set<std::string> late_frames_;  // whose poses came after their clock
+  InputDisturbances disturbances_;
 };
 
 // A transport that puts into Inputs from a thread of its own, from its making to its end.

@@ -22,8 +22,10 @@ clock, which comes after what is of its time
   {"disturbance": {"kind": "drop", "position_m": [x, y], "height_m": 0.2}, "stamp_ns": 0}
   {"clock_ns": 0}
 With --clock input all that is due up to a time is published, then the next time is waited for. A
-clock that goes back, or ahead by over 10 s, starts again there. Between two poses a body goes along
-a line and turns the shorter way; after the last one it stays.
+body whose pose once came after its clock, as Gazebo's server has it, is waited for from then on:
+until its pose comes or the clock goes on, at most 0.5 s. A clock that goes back, or ahead by over
+10 s, starts again there. Between two poses a body goes along a line and turns the shorter way;
+after the last one it stays.
 )";
 
 // Puts in what one line says; blank lines say nothing.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -168,23 +169,54 @@ TEST(Inputs, StartAgainWhereTheClockJumps) {
   EXPECT_FALSE(taken.poses.at("boat", {30'000 * kMs}));
 }
 
-TEST(Inputs, TellOfAPoseThatComesAfterItsClock) {
-  Taken taken;
-  take_all(
-      [](Inputs& inputs) {
-        for (const std::int64_t t_ns : {0, 10, 20, 30}) {
-          if (t_ns != 20) inputs.put_pose({"/boat/pose"}, "boat", pose_of(t_ns * kMs, {1, 0, 0}));
-          inputs.put_clock({"/clock"}, t_ns * kMs);
-          // Said again, it is no other; nor is one that is too early.
-          if (t_ns == 10) inputs.put_pose({"/boat/pose"}, "boat", pose_of(10 * kMs, {1, 0, 0}));
-          if (t_ns == 20) inputs.put_pose({"/boat/pose"}, "boat", pose_of(20 * kMs, {2, 0, 0}));
-        }
-      },
-      taken);
-  EXPECT_EQ(taken.said,
-            "warning: /boat/pose: the pose of boat for 0.02 s came after the clock had shown 0.02 "
-            "s, whose messages are without it; publish poses before their clock\n");
-  EXPECT_EQ(taken.poses.at("boat", {20 * kMs})->position_m.x, 2.0);
+// As those of Gazebo's server do.
+TEST(Inputs, WaitForPosesThatComeAfterTheirClock) {
+  Inputs inputs({"boat", "buoy"});
+  InputPoses poses;
+  inputs.put_pose(kHere, "buoy", pose_of(0, {5, 0, 0}));
+  for (std::int64_t k = 0; k < 20; ++k) {
+    inputs.put_clock({"/clock"}, 10 * k * kMs);
+    inputs.put_pose({"/boat/pose"}, "boat", pose_of(10 * k * kMs, {static_cast<double>(k), 0, 0}));
+  }
+  inputs.put_clock({"/clock"}, 200 * kMs);  // which has no pose
+  inputs.put_clock({"/clock"}, 210 * kMs);
+  testing::internal::CaptureStderr();
+  const auto boat_x = [&](std::int64_t t_ns) {
+    Inputs::Tick tick;
+    EXPECT_TRUE(inputs.next_tick(tick, poses, kNever));
+    EXPECT_EQ(tick.t_ns, t_ns);
+    const auto boat = poses.at("boat", {t_ns});
+    return boat ? boat->position_m.x : -1.0;
+  };
+  EXPECT_EQ(boat_x(0), -1.0);
+  for (std::int64_t k = 1; k < 20; ++k) EXPECT_EQ(boat_x(10 * k * kMs), static_cast<double>(k));
+  EXPECT_EQ(boat_x(200 * kMs), 19.0);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "note: /boat/pose: the pose of boat for 0 s came after the clock had shown 0 s, whose "
+            "messages are without it; from now on they wait for it\n");
+  inputs.begin();  // more may come
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(boat_x(210 * kMs), 19.0);
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(500));
+  inputs.end();
+}
+
+TEST(Inputs, WaitForNobodyWhosePosesComeFirst) {
+  Inputs inputs({"boat"});
+  InputPoses poses;
+  inputs.begin();
+  testing::internal::CaptureStderr();
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::int64_t k = 0; k <= 20; ++k) {  // a pose each fourth time; said again, it is no other
+    const std::int64_t stamp_ns = k / 4 * 40 * kMs;
+    inputs.put_pose({"/boat/pose"}, "boat", pose_of(stamp_ns, {static_cast<double>(k / 4), 0, 0}));
+    inputs.put_clock({"/clock"}, 10 * k * kMs);
+    Inputs::Tick tick;
+    ASSERT_TRUE(inputs.next_tick(tick, poses, kNever));
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  inputs.end();
 }
 
 struct BadPose {
