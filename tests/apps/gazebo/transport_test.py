@@ -197,7 +197,7 @@ class Transport(unittest.TestCase):
             run.say(clock_line(step * 10**7))
         run.stdin.close()
         run.stdin = None
-        self.assertEqual(run.wait(120), 0)
+        self.assertEqual(run.wait(400), 0)
         time.sleep(3.0)  # until the listener has written all
         listener.stdin.close()
         listener.stdin = None
@@ -391,7 +391,7 @@ class Loopback(unittest.TestCase):
         before = sent()
         run = sim(self, ip=ip)
         listener = Process(self, BIN / "gazebo_peer", "listen", "/imu", "IMU", ip=ip)
-        listener.expect(self, '{"topic": "/imu"')
+        self.assertTrue(any('{"topic": "/imu"' in line for line in listener.stdout))
         listener.close()
         run.close()
         return sent() - before
