@@ -18,6 +18,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -80,7 +81,8 @@ int listen(const std::vector<std::string>& words) {
   Node node;
   std::mutex mutex;
   for (std::size_t n = 0; n + 1 < words.size(); n += 2) {
-    const std::string topic = words[n], type = package() + words[n + 1];
+    const std::string& topic = words[n];
+    const std::string type = package() + words[n + 1];
     const auto print = [&mutex, topic, type](const char* bytes, std::size_t size,
                                              const MessageInfo&) {
       const auto message = message_of(type);
@@ -168,7 +170,7 @@ int ask(const std::string& service) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const std::string mode = argc > 1 ? argv[1] : "";
   const std::vector<std::string> words(argv + (argc > 1 ? 2 : 1), argv + argc);
   if (mode == "listen") return listen(words);
@@ -177,4 +179,7 @@ int main(int argc, char** argv) {
   if (mode == "damage") return damage(words);
   if (mode == "heights") return ask<msgs::Pose_V, msgs::Pose_V>("/water/heights");
   return 2;
+} catch (const std::exception& fault) {
+  std::fprintf(stderr, "gazebo_peer: %s\n", fault.what());
+  return 1;
 }
