@@ -138,6 +138,9 @@ Air find_air(const FrameInputs& in) {
 Light find_light(const FrameInputs& in, const Air& air) {
   Light light = make_light(in.world, air.clouds, in.ws.sky, air.fog, base_variance(in.world.scene));
   light.stars = make_stars(in.world, in.t_s, in.options.without);
+  if (in.options.exposure)
+    light.exposure = static_cast<float>(*in.options.exposure /
+                                        static_cast<double>(in.world.sky->stored_exposure));
   return light;
 }
 
@@ -289,6 +292,16 @@ void shade(const FrameInputs& in, Target& target, const StageRun& run) {
       ws.scratch, ws.shaded, target, run);
 }
 
+// Multiplies linear light by the exposure that is still to be applied.
+void expose(Target& target, Workers& workers) {
+  const auto width = static_cast<std::size_t>(target.width_px);
+  workers.for_each(target.linear.size() / (3 * width), [&](std::size_t y, int) {
+    for (float& light : std::span(target.linear).subspan(3 * width * y, 3 * width))
+      light *= target.exposure;
+  });
+  target.exposure = 1.0f;
+}
+
 void enlarge_picture(const Target& small, EnlargeTables& tables, const View& view, Target& target,
                      Workers& workers) {
   prepare_target(view, {}, target);
@@ -366,6 +379,7 @@ FrameStatistics draw_moment(const World& world, const FrameRequest& request, dou
     store_fog(in, run);
     shade(in, drawn_target, run);
     target.exposure = ws.shading.exposure;
+    if (options.exposure && options.keep_linear) expose(target, workers);
     if (small) enlarge_picture(ws.small, ws.enlarge, view, target, workers);
   });
   workspace.trace = ws.profile.trace();

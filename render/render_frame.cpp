@@ -68,6 +68,8 @@ void check_options(const FrameOptions& o) {
               "lookup_scale={}", o.lookup_scale);
   SWELL_CHECK(o.background_error_px <= 8.0, "background_error_px={}", o.background_error_px);
   SWELL_CHECK(o.picture_scale > 0.0 && o.picture_scale <= 1.0, "picture_scale={}", o.picture_scale);
+  SWELL_CHECK(!o.exposure || (*o.exposure > 0.0 && std::isfinite(*o.exposure)), "exposure={}",
+              o.exposure.value_or(0.0));
   SWELL_CHECK(o.edge_samples < 0 || raster::is_sample_count(o.edge_samples), "edge_samples={}",
               o.edge_samples);
   SWELL_CHECK(o.lod_operations >= 0 && o.lod_ms >= 0.0 && o.lod_groups >= 1,

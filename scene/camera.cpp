@@ -108,6 +108,12 @@ Waypoint pose_on_path(std::span<const Waypoint> path, double t_s) {
           value([](const Waypoint& w) { return w.roll_rad; })};
 }
 
+double camera_exposure(double f_number, double exposure_s, double iso) {
+  constexpr double kShown = 0.18, kLuxSeconds = 10.0, kUnit_cd_m2 = 1e4;
+  const double lux_s = 0.25 * kPi * kUnit_cd_m2 * exposure_s / (f_number * f_number);
+  return kShown * lux_s * iso / kLuxSeconds;
+}
+
 Lens camera_lens(const Camera& camera, int width_px, int height_px) {
   if (!camera.focal_px) return lens_of_fov(camera.fov_y_rad, width_px, height_px);
   return lens_of_intrinsics(given_intrinsics(camera, width_px, height_px), width_px, height_px);

@@ -12,6 +12,8 @@
 #include "math/elementary.h"
 #include "math/projection.h"
 #include "render/frame.h"
+#include "scene/camera.h"
+#include "sky/sky_light.h"
 #include "texture/image/image_io.h"
 
 namespace swell::apps {
@@ -29,6 +31,7 @@ class CameraSensor {
     find_projection();
     find_lookup();
     options_.noise = sensor.noise;
+    find_exposure();
     if (sensor.raw)
       picture_ = simulation.topic(camera_topic(sensor.name, kPictureTopic), msg::Image::kType);
     if (sensor.compressed != PictureCoding::kNone) add_compressed(simulation);
@@ -73,6 +76,20 @@ class CameraSensor {
              "got a lens that folds the picture, allowed one whose radius grows with the angle up "
              "to half of fisheye_fov_deg");
     k_ = projection_.k;
+  }
+
+  // That of the f-number, if it has one.
+  void find_exposure() {
+    if (sensor_.f_number == 0.0) return;
+    const scene::Scene& scene = world_.world().scene();
+    if (scene.camera.exposure_s == 0.0)
+      refuse("f_number", "got it in a scene without camera.exposure_s, allowed both");
+    if (sky::is_gradient(scene.sky))
+      refuse("f_number",
+             "got it under a gradient, whose light has no unit, allowed it where sky.model is "
+             "\"atmosphere\"");
+    options_.exposure =
+        scene::camera_exposure(sensor_.f_number, scene.camera.exposure_s, sensor_.noise.iso);
   }
 
   // The wider pinhole picture, where there is a lens.

@@ -45,6 +45,10 @@ struct FrameOptions {
   std::optional<glm::dvec4> clip_plane = {};
   // Which pixels are shaded; none: as the scene says. With keep_linear all are.
   std::optional<scene::ShadingRate> shading = {};
+  // What multiplies radiance [10 000 cd/m^2; of a gradient: its unit] in the picture, over 0, as
+  // scene::camera_exposure() has it; Target::linear is light so exposed then. None: that of the
+  // scene's camera, if it has an f-number, else what follows from the sky.
+  std::optional<double> exposure = {};
   // The noise of the picture's sensor; none: as the scene says. Every pixel is shaded for it.
   std::optional<scene::SensorNoise> noise = {};
   PartSet without = {};  // leave these parts of the picture out

@@ -236,6 +236,19 @@ Fault fault_of_camera(const Camera& camera) {
   return fault_of_projection(camera);
 }
 
+// An f-number exposes light that has a unit, and nothing else does then.
+Fault fault_of_exposure(const Scene& scene) {
+  if (scene.camera.f_number == 0.0) return std::nullopt;
+  if (scene.camera.exposure_s == 0.0)
+    return SceneFault{"camera.f_number", "it without camera.exposure_s", "both"};
+  if (sky::is_gradient(scene.sky))
+    return SceneFault{"camera.f_number", "it under a gradient, whose light has no unit",
+                      "it where sky.model is \"atmosphere\""};
+  if (scene.sky.exposure)
+    return SceneFault{"camera.f_number", "it besides sky.exposure", "one of them"};
+  return std::nullopt;
+}
+
 Fault fault_of_names(const Scene& scene) {
   std::vector<std::string_view> names;
   for (std::size_t n = 0; n < scene.objects.size(); ++n) {
@@ -402,6 +415,7 @@ std::optional<SceneFault> find_fault(const Scene& scene) {
 std::optional<SceneFault> find_disagreement(const Scene& scene) {
   if (Fault fault = fault_of_camera(scene.camera)) return fault;
   if (Fault fault = fault_of_path(scene.camera.path)) return fault;
+  if (Fault fault = fault_of_exposure(scene)) return fault;
   if (Fault fault = fault_of_names(scene)) return fault;
   if (Fault fault = fault_of_objects(scene.objects, !scene.rivers.empty())) return fault;
   if (Fault fault = fault_of_disturbances(scene.disturbances)) return fault;

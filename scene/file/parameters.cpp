@@ -26,28 +26,28 @@ Rows camera_rows() {
       SceneRow::angle("camera.roll_deg", {-180, 180, "deg"}, SWELL_FIELD(camera.roll_rad),
                       "positive lowers its right side"),
       SceneRow::angle("camera.fov_y_deg", {1, 170, "deg"}, SWELL_FIELD(camera.fov_y_rad),
-                      "from the lower to the upper edge, of perspective cameras"),
+                      "from lower to upper edge, of perspective cameras"),
       SceneRow::number("camera.near_m", {0.01, 10, "m"}, SWELL_FIELD(camera.near_m),
                        "what is nearer is cut off"),
       SceneRow::vector("camera.velocity_mps", {-1000, 1000, "m/s"},
                        SWELL_FIELD(camera.velocity_mps), "constant, in world axes"),
       SceneRow::angle("camera.turn_deg_s", {-360, 360, "deg/s"}, SWELL_FIELD(camera.turn_rad_s),
-                      "of the heading; the velocity does not turn"),
+                      "of the heading, not of the velocity"),
       SceneRow::optional_vector("camera.quaternion", {-1, 1}, SWELL_FIELD(camera.quaternion),
-                                "[w, x, y, z] of length 1: the rotation to the world from the "
+                                "[w, x, y, z] of length 1: to the world from the "
                                 "optical frame (right, down, "
-                                "ahead); excludes the angles and turn_deg_s"),
+                                "ahead); excludes angles and turn_deg_s"),
       SceneRow::optional_vector("camera.focal_px", {1, 1e6, "pixels"}, SWELL_FIELD(camera.focal_px),
                                 "[fx, fy] for a picture of size_px; excludes fov_y_deg"),
       SceneRow::optional_vector(
           "camera.principal_px", {-1e5, 1e5, "pixels"}, SWELL_FIELD(camera.principal_px),
-          "[cx, cy] from the picture's upper left corner (OpenCV's are less by 0.5); the middle if "
+          "[cx, cy] from the upper left corner (OpenCV's are less by 0.5); the middle if "
           "left out"),
       SceneRow::optional_vector("camera.size_px", {1, 65536, "pixels"}, SWELL_FIELD(camera.size_px),
                                 "[width, height] of those"),
       SceneRow::optional_text(
           "camera.mount", SWELL_FIELD(camera.mount),
-          "name of the object that carries the camera, in whose axes its directions then are; "
+          "name of the object that carries it, in whose axes directions then are; "
           "excludes eye_m and velocity_mps"),
       SceneRow::vector("camera.mount_offset_m", {-1000, 1000, "m"},
                        SWELL_FIELD(camera.mount_offset_m),
@@ -55,18 +55,22 @@ Rows camera_rows() {
       SceneRow::number("camera.exposure_s", {0, 10, "s"}, SWELL_FIELD(camera.exposure_s),
                        "how long the shutter stays open, from the picture's time on"),
       SceneRow::integer("camera.shutter_samples", Kind::kInteger, {1, 16},
-                        SWELL_FIELD(camera.shutter_samples),
-                        "moments of that time whose light is added up"),
+                        SWELL_FIELD(camera.shutter_samples), "moments of it whose light is added"),
+      SceneRow::or_zero(SceneRow::number(
+          "camera.f_number", {0.5, 128}, SWELL_FIELD(camera.f_number),
+          "exposes physical light, with exposure_s and iso; excludes sky.exposure; 0: the sky "
+          "does")),
       SceneRow::choice("camera.projection", ProjectionName{}, "how the picture shows directions"),
       SceneRow::angle("camera.fisheye_fov_deg", {1, 360, "deg"},
                       SWELL_FIELD(camera.fisheye_fov_rad),
-                      "cone that is shown; it touches the nearer edges unless focal_px is given"),
+                      "cone shown; touches the nearer edges unless focal_px is given"),
       SceneRow::vector("camera.fisheye_k", {-10, 10}, SWELL_FIELD(camera.fisheye_k),
                        "k1 to k4, as OpenCV's"),
       SceneRow::or_zero(SceneRow::number("camera.full_well_e", {100, 1e7, "electrons"},
                                          SWELL_FIELD(camera.noise.full_well_e),
                                          "that a pixel holds; 0: no noise")),
-      SceneRow::number("camera.iso", {100, 1e6}, SWELL_FIELD(camera.noise.iso), "divides them"),
+      SceneRow::number("camera.iso", {100, 1e6}, SWELL_FIELD(camera.noise.iso),
+                       "divides them; see f_number"),
       SceneRow::number("camera.read_noise_e", {0, 10000, "electrons"},
                        SWELL_FIELD(camera.noise.read_noise_e), "beside the light's own"),
       SceneRow::integer("camera.noise_seed", Kind::kInteger, {0, kMaxSeed},

@@ -99,6 +99,7 @@ struct Sensor {
   double fisheye_fov_rad = radians(180.0);
   glm::dvec4 fisheye_k{0.0};
   SensorNoise noise{};
+  double f_number = 0.0;  // as Camera has it, with the scene's exposure_s; 0: the scene's
 
   // For cameras and lidars: labels besides.
   bool classes = false, ids = false;

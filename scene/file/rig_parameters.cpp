@@ -87,12 +87,19 @@ void add_noise(Keys& keys) {
       "noise")));
   keys.push_back(SensorRow::number("iso", {100, 1e6}, SWELL_FIELD(noise.iso),
                                    "at 200 the picture is made of half as many electrons as at "
-                                   "100"));
+                                   "100, and with f_number exposed twice as much"));
   keys.push_back(SensorRow::number("read_noise_e", {0, 10000, "electrons"},
                                    SWELL_FIELD(noise.read_noise_e),
                                    "standard deviation, beside that of the light"));
   keys.push_back(SensorRow::integer("noise_seed", ParameterKind::kInteger, {0, kMaxSeed},
                                     SWELL_FIELD(noise.seed), "another number, other noise"));
+}
+
+void add_exposure(Keys& keys) {
+  keys.push_back(SensorRow::or_zero(SensorRow::number(
+      "f_number", {0.5, 128}, SWELL_FIELD(f_number),
+      "of the lens: exposes the picture with it, iso and the scene's camera.exposure_s, where the "
+      "light is physical; in place of sky.exposure; 0: as the scene's camera is exposed")));
 }
 
 void add_camera(Keys& keys) {
@@ -115,6 +122,7 @@ void add_camera(Keys& keys) {
   add_labels(keys, "publish the label \"class\", 16UC1", "publish the label \"id\", 32SC1");
   add_projection(keys);
   add_noise(keys);
+  add_exposure(keys);
 }
 
 struct LidarPatternName {

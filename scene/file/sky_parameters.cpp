@@ -45,12 +45,12 @@ std::vector<Parameter<Scene>> sky_parameters() {
                        "light of sun, moon and stars in the earth's air; or a gradient painted "
                        "from the keys below, each of which makes it one"),
       SceneRow::number("sky.turbidity", {1, 10}, SWELL_FIELD(sky.turbidity),
-                       "haze of the atmosphere: optical depth over that of pure air"),
+                       "haze: optical depth over that of pure air"),
       SceneRow::number("sky.moon_phase", {0, 1}, SWELL_FIELD(sky.moon_phase),
                        "lit part of the moon's disc"),
       SceneRow::optional_angle("sky.moon_azimuth_deg", {-360, 360, "deg"},
                                SWELL_FIELD(sky.moon_azimuth_rad),
-                               "where the moon stands, clockwise from north; opposite the sun if "
+                               "clockwise from north; opposite the sun if "
                                "left out"),
       SceneRow::optional_angle("sky.moon_elevation_deg", {-90, 90, "deg"},
                                SWELL_FIELD(sky.moon_elevation_rad),
@@ -67,26 +67,25 @@ std::vector<Parameter<Scene>> sky_parameters() {
                                 "of a gradient: linear RGB, strength of direct sunlight, 1 if "
                                 "left out"),
       SceneRow::optional_vector("sky.zenith", {0, 2}, SWELL_FIELD(sky.zenith),
-                                "of a gradient: linear RGB radiance of the sky overhead; at most "
+                                "of a gradient: linear RGB radiance overhead; at most "
                                 "7.66 times `horizon`; [0.1, 0.25, 0.6] if left out"),
       SceneRow::optional_vector(
           "sky.horizon", {0, 1.7}, SWELL_FIELD(sky.horizon),
-          "of a gradient: linear RGB radiance of the sky about 1 degree above the horizon; below "
+          "of a gradient: linear RGB radiance 1 degree above the horizon; below "
           "it the gradient goes on, to 1.15 `horizon` - 0.15 `zenith`; [0.65, 0.75, 0.85] if left "
           "out"),
       SceneRow::number("sky.haze_distance_m", {10, 1e7, "m"}, SWELL_FIELD(sky.haze_distance_m),
                        "at sea level 1/e of the contrast is left at this range"),
       SceneRow::number("sky.haze_height_m", {10, 1e7, "m"}, SWELL_FIELD(sky.haze_height_m),
-                       "the haze thins with height: 1/e of it is left at this one; 1e7: the same "
-                       "at all heights"),
+                       "where 1/e of the haze is left; 1e7: the same at all heights"),
       SceneRow::number("sky.cloud_cover", {0, 1}, SWELL_FIELD(sky.cloud_cover),
-                       "part of the sky that clouds cover; 1 is overcast"),
+                       "part of the sky; 1 is overcast"),
       SceneRow::integer("sky.cloud_seed", Kind::kInteger, {0, kMaxSeed},
                         SWELL_FIELD(sky.cloud_seed), "another number, other clouds"),
       SceneRow::optional_number(
           "sky.exposure", {1e-6, 1e9}, SWELL_FIELD(sky.exposure),
-          "multiplies radiance, in 10 000 cd/m^2, or in its own unit for a gradient; if left out "
-          "it follows from the sky's light, and is 1 for a gradient"),
+          "multiplies radiance, in 10 000 cd/m^2, or a gradient's own unit; if left out it follows "
+          "from the sky's light, and is 1 for a gradient"),
   };
 }
 

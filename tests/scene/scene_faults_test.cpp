@@ -142,6 +142,18 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[camera]\nprojection = \"equirectangular\"\nfocal_px = [9, 9]\nsize_px = [9, 9]\n",
               "test.toml:3: column 12: camera.focal_px, got it for camera.projection "
               "\"equirectangular\", allowed it for the others"},
+        Fault{"[camera]\nf_number = 0.4\n",
+              "test.toml:2: column 12: camera.f_number, got 0.4, allowed 0 or 0.5 to 128"},
+        Fault{"[camera]\nf_number = 8\n",
+              "test.toml:2: column 12: camera.f_number, got it without camera.exposure_s, allowed "
+              "both"},
+        Fault{"[camera]\nf_number = 8\nexposure_s = 0.01\n[sky]\nzenith = [0.1, 0.2, 0.3]\n",
+              "test.toml:2: column 12: camera.f_number, got it under a gradient, whose light has "
+              "no unit, allowed it where sky.model is \"atmosphere\""},
+        Fault{
+            "[camera]\nf_number = 8\nexposure_s = 0.01\n[sky]\nexposure = 2\n",
+            "test.toml:2: column 12: camera.f_number, got it besides sky.exposure, allowed one of "
+            "them"},
         Fault{"[camera]\nfull_well_e = 50\n",
               "test.toml:2: column 15: camera.full_well_e, got 50, allowed 0 or 100 to 10000000 "
               "electrons"},
@@ -277,7 +289,8 @@ INSTANTIATE_TEST_SUITE_P(
               "test.toml:2: column 1: unknown key, got 'camera.fov_deg' (did you mean "
               "'fov_y_deg'?), allowed in [camera] "
               "fov_y_deg, roll_deg, pitch_deg, fisheye_fov_deg, turn_deg_s, eye_m, heading_deg, "
-              "mount, iso, focal_px, noise_seed, [[camera.path]], fisheye_k, full_well_e, near_m, "
+              "mount, iso, focal_px, f_number, noise_seed, [[camera.path]], fisheye_k, "
+              "full_well_e, near_m, "
               "exposure_s, size_px, velocity_mps, mount_offset_m, projection, read_noise_e, "
               "quaternion, shutter_samples, principal_px"},
         Fault{"[camrea]\nnear_m = 1\n",
@@ -310,7 +323,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{
             "[camera]\nfov = 3\n",
             "test.toml:2: column 1: unknown key, got 'camera.fov', allowed in [camera] fov_y_deg, "
-            "mount, iso, focal_px, [[camera.path]], eye_m, roll_deg, near_m, size_px, fisheye_k, "
+            "mount, iso, focal_px, [[camera.path]], eye_m, roll_deg, near_m, f_number, size_px, "
+            "fisheye_k, "
             "quaternion, exposure_s, projection, noise_seed, pitch_deg, fisheye_fov_deg, "
             "full_well_e, velocity_mps, turn_deg_s, read_noise_e, heading_deg, principal_px, "
             "mount_offset_m, shutter_samples"},
@@ -323,7 +337,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[camera]\n\"eye.m\" = 3\n",
               "test.toml:2: column 1: unknown key, got 'camera.eye.m' (did you mean 'eye_m'?), "
               "allowed in [camera] eye_m, near_m, fisheye_k, iso, [[camera.path]], size_px, mount, "
-              "exposure_s, noise_seed, fov_y_deg, roll_deg, velocity_mps, turn_deg_s, quaternion, "
+              "exposure_s, f_number, noise_seed, fov_y_deg, roll_deg, velocity_mps, turn_deg_s, "
+              "quaternion, "
               "focal_px, projection, read_noise_e, heading_deg, pitch_deg, fisheye_fov_deg, "
               "full_well_e, mount_offset_m, shutter_samples, principal_px"},
         Fault{"a.b = 3\n",

@@ -290,12 +290,13 @@ TEST(SceneFile, ACamerasPathIsReadAndDumped) {
 TEST(SceneFile, ACameraOfRoboticsIsReadAndDumped) {
   const Scene scene = parse_scene(
       "[camera]\nquaternion = [0.5, -0.5, 0.5, 0.5]\nfocal_px = [800, 790.5]\n"
-      "principal_px = [322, 239.5]\nsize_px = [640, 480]\n",
+      "principal_px = [322, 239.5]\nsize_px = [640, 480]\nf_number = 5.6\nexposure_s = 0.01\n",
       "test.toml");
   EXPECT_EQ(scene.camera.quaternion, glm::dvec4(0.5, -0.5, 0.5, 0.5));
   EXPECT_EQ(scene.camera.focal_px, glm::dvec2(800.0, 790.5));
   EXPECT_EQ(scene.camera.principal_px, glm::dvec2(322.0, 239.5));
   EXPECT_EQ(scene.camera.size_px, glm::dvec2(640.0, 480.0));
+  EXPECT_EQ(scene.camera.f_number, 5.6);
   EXPECT_EQ(differences(scene, parse_scene(dump_scene(scene), "b.toml")), "");
 }
 

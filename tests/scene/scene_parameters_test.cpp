@@ -174,6 +174,7 @@ std::string agreeing_value(std::string_view key, Dice& dice) {
   if (key == "coast.grid_spacing_m") return dice.below(2) ? "100" : "0";
   if (key == "camera.quaternion") return "[0.1, -0.7, 0.5, 0.5]";
   if (key == "camera.projection") return "\"perspective\"";  // others fit few lenses
+  if (key == "camera.f_number") return "0";                  // others need exposure_s
   if (key == "sky.time_utc") return "\"2031-08-02T04:05:06.5Z\"";
   if (key == "camera.mount") return "\"\"";
   if (key == "clouds.kind") return dice.below(2) ? "\"none\"" : "\"layer\"";

@@ -121,6 +121,7 @@ std::string differences(const Scene& a, const Scene& b) {
   SWELL_COMPARE(camera.mount_offset_m);
   SWELL_COMPARE(camera.exposure_s);
   SWELL_COMPARE(camera.shutter_samples);
+  SWELL_COMPARE(camera.f_number);
   SWELL_COMPARE(camera.projection);
   SWELL_COMPARE(camera.fisheye_fov_rad);
   SWELL_COMPARE(camera.fisheye_k);

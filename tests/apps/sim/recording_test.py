@@ -189,6 +189,17 @@ class Recording(unittest.TestCase):
         self.assertAlmostEqual(bent[middle], depth[middle], delta=0.05 * depth[middle])
         self.assertLess(bent[corner], 0.99 * depth[corner])  # a barrel sees more of the water below
 
+    def test_an_f_number_exposes_as_the_scenes_does(self):
+        def picture(name, *arguments):
+            recorded = self.record(name, *SMALL, "--set", "camera.exposure_s=0.01", *arguments, "--duration", 0.05)
+            return {m.topic: m.values for m in mcap_reader.read(recorded).messages}["/camera/image_raw"]["data"]
+
+        by_rig = picture("rig.mcap", "--rig-set", "camera[0].f_number=16")
+        self.assertEqual(by_rig, picture("scene.mcap", "--set", "camera.f_number=16"))
+        self.assertNotEqual(by_rig, picture("sky.mcap"))
+        fast = picture("fast.mcap", "--rig-set", "camera[0].f_number=16", "--rig-set", "camera[0].iso=400")
+        self.assertEqual(fast, picture("wide.mcap", "--rig-set", "camera[0].f_number=8"))
+
     def test_what_is_not_right_is_one_line(self):
         ok = ("--scene", SCENE, "--rig", RIG)
         rig = self.folder / "rig.toml"
@@ -203,6 +214,10 @@ class Recording(unittest.TestCase):
                 (("--scene", SCENE, "--rig", self.folder, "--measure"), "rig, got a directory"),
                 ((*ok, "--measure", "--set", "object[5].name="), "body[0].mount, got \"launch\""),
                 ((*ok, "--measure", "--rig-set", folded), "camera[0].distortion, got one that folds"),
+                ((*ok, "--measure", "--rig-set", "camera[0].f_number=8"),
+                 "camera[0].f_number, got it in a scene without camera.exposure_s"),
+                ((*ok, "--measure", "--rig-set", "camera[0].f_number=8", "--set", "camera.exposure_s=0.01", "--set",
+                  "sky.zenith=[0.1, 0.2, 0.3]"), "camera[0].f_number, got it under a gradient"),
                 ((*ok, "--record", self.folder / "no" / "run.mcap"), "got a folder that is not there"),
                 ((*ok, "--record", self.folder), "got a directory")):
             done = run(*arguments)

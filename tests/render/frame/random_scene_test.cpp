@@ -123,6 +123,7 @@ std::optional<std::string> tame_value(std::string_view key, Dice& dice) {
     return fmt::format("[{}, {}]", 20 + 200 * dice.uniform(), 20 + 200 * dice.uniform());
   if (key == "camera.principal_px")
     return fmt::format("[{}, {}]", 200 * dice.uniform() - 50, 200 * dice.uniform() - 50);
+  if (key == "camera.f_number") return "0";  // others need exposure_s
   if (key == "camera.size_px") return "[100, 90]";
   if (key == "camera.projection") return "\"perspective\"";  // others fit few lenses
   return std::nullopt;
