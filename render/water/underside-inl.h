@@ -89,20 +89,39 @@ HWY_INLINE WindowPlace PlaceInWindow(const ViewRays& rays, V3 direction) {
           MulSub(Dot(direction, Constant(down)), inverse, y)};
 }
 
+// Where a face of a wide picture shows a ray that is turned by a share of the way to a direction,
+// both of length 1: by the same angle on both sides of a seam, where pixels lie another way. The
+// bound is as wide as so many pixels where the face's axis is, and as the square of the cosine to
+// the axis elsewhere, as pixels are; less a twentieth, as tangents grow.
+HWY_INLINE WindowPlace PlaceOfTurned(const ViewRays& rays, float max_turn, V3 ray, V3 direction,
+                                     float share) {
+  const glm::vec3 axis = glm::normalize(glm::cross(rays.ray_dx, rays.ray_dy));
+  const V cosine = Dot(ray, Constant(axis));
+  const V bound = cosine * cosine * (0.95f * max_turn);
+  const V3 turn = (direction - ray) * share;
+  const V part = bound * InverseSqrt(Max(Dot(turn, turn), 1e-12f));
+  return PlaceInWindow(rays, MulAdd(turn, Min(part, 1.0f), ray));
+}
+
 // Looks a planar map up in a direction of the eye: where a flat surface would bend or mirror the
 // ray as the waves do, for things far beyond it. Nearer ones move by less. Slopes of this variance,
 // which turn the direction by `turn` times as much, spread what is seen.
 HWY_INLINE Looked LookUpTowards(const Shading& s, const Water& water, const PlanarMap& map,
                                 const Packet& packet, V3 direction, V variance, float turn) {
   constexpr float kShare = 0.6f;
+  const float px = kShare * turn / s.rays.pixel_angle;
+  const BlurLevel level = FindBlur(map, variance, Constant(px * px));
+  if (water.images.max_turn > 0.0f) {
+    const WindowPlace at =
+        PlaceOfTurned(s.rays, water.images.max_turn, -packet.to_eye, direction, kShare);
+    return LookUpAt(map, at.x_px + 0.5f, at.y_px + 0.5f, level);
+  }
   const float bound = water.images.max_distortion_px;
   const WindowPlace at = PlaceInWindow(s.rays, direction);
   const auto moved = [&](V from, V to) HWY_ATTR {
     const V by = Clamp((to - from) * kShare, -bound, bound);
     return from + (by + 0.5f);
   };
-  const float px = kShare * turn / s.rays.pixel_angle;
-  const BlurLevel level = FindBlur(map, variance, Constant(px * px));
   return LookUpAt(map, moved(packet.x_px, at.x_px), moved(packet.y_px, at.y_px), level);
 }
 

@@ -10,6 +10,7 @@
 #include "ocean/open_sea/whitecaps.h"
 #include "ocean/water_surface.h"
 #include "render/frame/parts.h"
+#include "render/packets/view_rays.h"
 #include "render/sea/sea_maps.h"
 #include "render/sky/light.h"
 #include "render/tile/ripples.h"
@@ -162,6 +163,8 @@ void fill_optics(const MaterialInputs& in, const View& camera, Water& water) {
   water.images.refraction = in.refraction;
   water.images.distortion = make_distortion(in.world.scene, camera);
   water.images.max_distortion_px = max_distortion_px(camera);
+  if (camera.whole_height_px > 0.0f)
+    water.images.max_turn = water.images.max_distortion_px * make_rays(camera).pixel_angle;
   fill_slope_axes(camera, water);
 }
 

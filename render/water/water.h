@@ -52,7 +52,8 @@ struct WaterOptics {
 struct WaterImages {
   PlanarMap reflection, refraction;
   Distortion distortion;
-  float max_distortion_px = 0.0f;                // bound of the displacement, each way
+  float max_distortion_px = 0.0f;  // bound of the displacement, each way
+  float max_turn = 0.0f;  // of a wide picture's face, seen from below: the same, as tangent
   glm::vec2 view_right{1, 0}, view_ahead{0, 1};  // of a level camera: horizontal unit vectors
 };
 

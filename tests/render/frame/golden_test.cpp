@@ -30,6 +30,7 @@ struct Case {
   double t_s;
   bool wireframe = false;
   scene::ShadingRate shading = kFull;
+  ProjectionKind projection = ProjectionKind::kPerspective;
 };
 
 constexpr Case kCases[] = {{"open_ocean", 0.0},
@@ -40,15 +41,26 @@ constexpr Case kCases[] = {{"open_ocean", 0.0},
                            {"sines", 3.0},
                            {"beach", 4.0},
                            {"beach", 4.0, false, kAdaptive},
-                           {"buoys", 4.0}};
+                           {"buoys", 4.0},
+                           {"lagoon", 5.0, false, kFull, ProjectionKind::kFisheye},
+                           {"buoys", 4.0, false, kFull, ProjectionKind::kEquirectangular}};
 
 class Golden : public testing::TestWithParam<Case> {};
 std::string case_name(const Case& c) {
   return std::string(c.scene) + "_t" + std::to_string(static_cast<int>(c.t_s)) +
-         (c.wireframe ? "_wireframe" : "") + (c.shading == kAdaptive ? "_adaptive" : "");
+         (c.wireframe ? "_wireframe" : "") + (c.shading == kAdaptive ? "_adaptive" : "") +
+         (c.projection == ProjectionKind::kFisheye ? "_fisheye" : "") +
+         (c.projection == ProjectionKind::kEquirectangular ? "_equirectangular" : "");
 }
 INSTANTIATE_TEST_SUITE_P(Pictures, Golden, testing::ValuesIn(kCases),
                          [](const auto& test) { return case_name(test.param); });
+
+// Through the scene's own camera, which may have another projection.
+View view_of(const Case& c, const World& world) {
+  scene::Camera camera = world.scene().camera;
+  camera.projection = c.projection;
+  return scene::camera_view(camera, c.t_s, 320, 180);
+}
 
 texture::Image8 rgb_image(const Target& target) {
   texture::Image8 image{target.width_px, target.height_px, 3, {}};
@@ -93,7 +105,7 @@ TEST_P(Golden, PictureIsTheStoredOneToTheBit) {
   const Case& c = GetParam();
   const std::string name = case_name(c);
   const World& world = shipped_world(c.scene);
-  const Shot shot(world, view_of(world, c.t_s, 320, 180), c.t_s,
+  const Shot shot(world, view_of(c, world), c.t_s,
                   {.wireframe = c.wireframe, .shading = c.shading});
   const texture::Image8 actual = rgb_image(shot.target);
   const fs::path file = kGoldenFolder / (name + ".png");

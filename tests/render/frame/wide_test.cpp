@@ -190,6 +190,64 @@ TEST(WidePicture, ShowsNoSeams) {
   EXPECT_LT(steps(turned, 64), 1.3 * steps(one, 128) + 1e-4);
 }
 
+// The mean step of the picture's codes from a pixel to the next one, right or below: across seams,
+// and some pixels beside them.
+struct SeamSteps {
+  double across = 0.0, beside = 0.0;
+};
+
+SeamSteps seam_steps(const Shot& shot) {
+  Workers workers(1);
+  const glm::ivec2 size_px(shot.view.width_px, shot.view.height_px);
+  const WidePlan plan = plan_wide(shot.view.projection, size_px, workers);
+  const auto face_at = [&](glm::ivec2 p) {
+    return plan.pixels[static_cast<std::size_t>(p.y * size_px.x + p.x)].face;
+  };
+  const auto is_inside = [&](glm::ivec2 p) {
+    return p.x >= 0 && p.y >= 0 && p.x < size_px.x && p.y < size_px.y;
+  };
+  const auto step = [&](glm::ivec2 a, glm::ivec2 b) {
+    const glm::ivec3 off = glm::abs(shot.codes(a.x, a.y) - shot.codes(b.x, b.y));
+    return static_cast<double>(off.x + off.y + off.z);
+  };
+  SeamSteps sum;
+  std::size_t seams = 0, others = 0;
+  for (int y = 0; y < size_px.y; ++y)
+    for (int x = 0; x < size_px.x; ++x)
+      for (const glm::ivec2& next : {glm::ivec2(1, 0), glm::ivec2(0, 1)}) {
+        const glm::ivec2 p(x, y);
+        if (!is_inside(p + next) || face_at(p) == face_at(p + next)) continue;
+        if (face_at(p) == kNoFace || face_at(p + next) == kNoFace) continue;
+        sum.across += step(p, p + next);
+        ++seams;
+        for (const int aside : {-5, -4, -3, 3, 4, 5}) {
+          const glm::ivec2 a = p + aside * next, b = a + next;
+          if (!is_inside(a) || !is_inside(b) || face_at(a) != face_at(b)) continue;
+          sum.beside += step(a, b);
+          ++others;
+        }
+      }
+  return {sum.across / static_cast<double>(seams), sum.beside / static_cast<double>(others)};
+}
+
+TEST(WidePicture, StepsNoFurtherAcrossSeamsThanBesideThem) {
+  const struct {
+    const char* scene;
+    glm::dvec3 eye_m;
+  } places[] = {
+      {"harbour", {-12, -18, 3}}, {"harbour", {-12, -18, -2}}, {"sea_state_8", {0, -900, 14}}};
+  for (const auto& place : places) {
+    const World& world = shipped_world(place.scene);
+    for (const double pitch_deg : {0.0, -65.0}) {  // no seam lies on the horizon
+      const glm::ivec2 size_px(640, 320);
+      const Shot all(world, wide_view(kAllRound, size_px, place.eye_m, 29, pitch_deg), kWideTime_s);
+      const SeamSteps steps = seam_steps(all);
+      EXPECT_LT(steps.across / steps.beside, 1.3)
+          << place.scene << " " << place.eye_m.z << " " << pitch_deg;
+    }
+  }
+}
+
 TEST(WidePicture, HasTheSameBitsOnAnyNumberOfThreadsAndAmongOtherViews) {
   const World& world = shipped_world("buoys");
   const glm::ivec2 size_px(120, 60);
