@@ -24,8 +24,13 @@ static void expect(bool is_so, const char* what) {
 }
 #define EXPECT(condition) expect(condition, #condition)
 
-/* The words of control that fesetround() sets: of SSE without its flags, of x87. */
+/* The words of control that fesetround() sets: of SSE without its flags, of x87; of Arm. */
 static unsigned control(void) {
+#if defined(__aarch64__)
+  unsigned long fpcr = 0;
+  __asm__ volatile("mrs %0, fpcr" : "=r"(fpcr));
+  return (unsigned)fpcr;
+#else
   unsigned short x87 = 0;
   unsigned sse = 0;
 #if defined(__x86_64__) || defined(__i386__)
@@ -33,6 +38,7 @@ static unsigned control(void) {
   __asm__ volatile("stmxcsr %0" : "=m"(sse));
 #endif
   return (sse & 0xffc0u) << 16 | x87;
+#endif
 }
 
 /* Whatever a caller may ask. */
