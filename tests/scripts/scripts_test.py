@@ -12,11 +12,13 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(SOURCE / "scripts"))
 
-import build_times  # noqa: E402 the path comes first
+import arm64_tests  # noqa: E402 the path comes first
+import build_times  # noqa: E402
 import compare      # noqa: E402
 
 
@@ -230,6 +232,31 @@ class RunSh(unittest.TestCase):
         targets = re.search(r"--target (.*)", (SOURCE / "scripts/run.sh").read_text())[1].split()
         self.assertGreater(len(sum(made, [])), 3)
         self.assertEqual(set(sum(made, [])) - set(targets), set())
+
+
+class Arm64Tests(Temporary):
+    def test_names_are_of_tests(self):
+        lists = "".join(file.read_text() for file in (SOURCE / "tests").glob("**/CMakeLists.txt"))
+        known = set(re.findall(r"\b(?:swell_add_(?:program_)?test\(|add_test\(NAME )(\w+)", lists))
+        self.assertEqual({*arm64_tests.WHOLE, *arm64_tests.LARGER, *arm64_tests.SHORT} - known, set())
+        self.assertEqual(set(arm64_tests.SHORT) - set(arm64_tests.WHOLE), set())
+
+    def test_those_that_passed_run_again_when_a_program_changes(self):
+        program = self.folder / "bin/some_test"
+        program.parent.mkdir()
+        with mock.patch.object(arm64_tests, "BUILD", self.folder):
+            def state():
+                return arm64_tests.state_of("some_test", ["qemu", str(program)])
+            (self.folder / "bin/swell-render").write_text("one")
+            program.write_text("of kernels")
+            alone = state()
+            (self.folder / "bin/swell-render").write_text("another")
+            self.assertEqual(state(), alone)
+            program.write_text("that runs bin/swell-render")
+            naming = state()
+            self.assertNotEqual(naming, alone)
+            (self.folder / "bin/swell-render").write_text("a third")
+            self.assertNotEqual(state(), naming)
 
 
 class PackageLists(Temporary):
