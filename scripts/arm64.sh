@@ -1,9 +1,9 @@
 #!/bin/sh
-# Builds swell-render, tests and the wheel for 64-bit Arm, runs all under qemu and compares pictures and labels with those
-# of the release build, bit for bit: hours on two cores. Goes on where it was stopped.
+# Builds swell-render, tests and what is given out for 64-bit Arm, runs all under qemu and compares pictures and labels
+# with those of the release build, bit for bit: hours on two cores. Goes on where it was stopped.
 #   scripts/arm64.sh [SCENE ...]   names in scenes/, as lagoon; default: all
-#   scripts/arm64.sh --short       two scenes, and tests of a minute: ten minutes with the build
-# Needs build/release/bin/swell-render, and root or sudo for packages that are missing.
+#   scripts/arm64.sh --short       two scenes, tests of a minute, the wheel: ten minutes with the build
+# Needs the release build, of it --short bin/swell-render alone; and root, or sudo for packages that are missing.
 set -eu
 cd "$(dirname "$0")/.."
 export SWELL_CACHE=off
@@ -34,4 +34,11 @@ drawn=$(PYTHONHOME=$root/usr PYTHONPATH=build/arm64/wheel/files:$root/usr/lib/py
   qemu-aarch64-static -L "$root" "$root/usr/bin/python3.11" -B -c \
   'import swell; print("frame 0 xxh3", swell.World("scenes/buoys.toml").render(5.0, (96, 54)).hash)')
 [ "$drawn" = "$(build/release/bin/swell-render --scene scenes/buoys.toml --size 96x54 --time 5 --hash)" ]
-exec python3 -B scripts/same_pictures.py "$@"
+python3 -B scripts/same_pictures.py "$@"
+
+# The packages and the image, in an empty Debian.
+if [ ! "$short" ]; then
+  scripts/package.sh --arm64
+  tests/apps/packages_root.sh "$PWD/build/release" "$PWD" "$PWD/build/packages_arm64"
+  tests/apps/cluster/image_test.sh "$PWD/build/release" "$PWD" "$PWD/build/arm64"
+fi
