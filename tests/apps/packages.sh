@@ -82,20 +82,6 @@ done
 found=$(grep -rlF -e "$source" -e "$build" "$root/usr" || true)
 [ -z "$found" ] || fail "these files name a folder of the build: $found"
 
-# A folder of the library, compiled from a copy of the sources elsewhere and not taken from a cache, has the same bytes.
-copy=$work/copy
-mkdir "$copy"
-(cd "$source" && find . \( -path ./build -o -path ./.git -o -path ./out \) -prune -o -type f -print0 |
-  xargs -0 cp --parents -t "$copy")
-names='CMAKE_(BUILD_TYPE|(C|CXX)_COMPILER|UNITY_BUILD|UNITY_BUILD_BATCH_SIZE)|SWELL_(DCHECKS|PARALLEL|SIMD)'
-options=$(sed -nE "s/^(($names):.*)/-D\\1/p" "$build/CMakeCache.txt")
-export CCACHE_DISABLE=1
-# shellcheck disable=SC2086 # a list of words
-cmake -G Ninja -S "$copy" -B "$copy/out/build" -DSWELL_BUILD_APPS=OFF -DSWELL_BUILD_TESTS=OFF $options \
-  >"$work/log" 2>&1 &&
-  cmake --build "$copy/out/build" --target swell_texture >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
-cmp "$copy/out/build/texture/libswell_texture.a" "$build/texture/libswell_texture.a"
-
 # They depend on no library of images, windows or meshes but where these are what the package is for.
 depends() { dpkg-deb -f "$1" Depends; }
 for package in "$work"/packages/libswell0_*.deb "$work"/packages/swell_*.deb "$work"/packages/python3-swell_*.deb; do
