@@ -218,8 +218,9 @@ HWY_INLINE WaterSlopes RiverSlopes(const Shading& shading, const River& river, c
       NearestSlopes(river.foam_lace, copy.p, level_m, threshold, unused);
       code = MulAdd(copy.weight, threshold, code);
     }
-    s.slope_x = x * rough;
-    s.slope_y = y * rough;
+    // Not -0 where it is smooth: a packet that is smooth all over has 0.
+    s.slope_x = IfThenElseZero(rough > zero, x * rough);
+    s.slope_y = IfThenElseZero(rough > zero, y * rough);
     s.variance = MulAdd(rough * rough, lost, s.variance);
     if (foams) {
       // Never white all over: the lace moves.

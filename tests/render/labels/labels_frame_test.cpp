@@ -79,6 +79,21 @@ TEST_P(LabelsOfFrame, ThreadsTilesAndSimdTargetChangeNoBit) {
   select_simd_target(SimdTarget::kAvx512);
 }
 
+// Where a smooth river's pixels are in packets with rough ones on some tiles and not on others.
+TEST(Labels, OfARiverChangeNoBitWithTilesAndSimdTarget) {
+  const World& world = shipped_world("river");
+  const View view = view_of(world, 0.0, 320, 180);
+  const auto labels_on = [&](int tile_size_px) {
+    return LabelledFrame(world, view, 0.0, {.tile_size_px = tile_size_px}).target.labels;
+  };
+  const SimdTarget best = current_simd_target();
+  const Labels reference = labels_on(64);
+  select_simd_target(simd_targets().front());
+  for (const int tile_size_px : {16, 32, 64})
+    EXPECT_EQ(difference(labels_on(tile_size_px), reference), "") << tile_size_px;
+  select_simd_target(best);
+}
+
 TEST_P(LabelsOfFrame, ThePictureIsTheSameWithAndWithout) {
   const std::uint64_t without = picture_hash(draw(world, {.labels = {}}));
   EXPECT_EQ(picture_hash(draw(world, {})), without);
