@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Are the pictures and labels of the build for 64-bit Arm those of the release build, bit for bit?
+"""Are the pictures and labels of the build for 64-bit Arm those of the release build's SIMD targets, bit for bit?
 
 Called by scripts/arm64.sh, which has built both. Pictures that are known to be the same are not drawn again while the
 programs stay as they are: build/arm64/same_pictures.txt has their names.
 """
 import hashlib
+import json
 import pathlib
 import subprocess
 import sys
@@ -36,16 +37,19 @@ def main():
     if known[:1] != [programs]:
         known = [programs]
         KNOWN.write_text(programs + "\n", encoding="utf-8")
+    version = subprocess.run([RELEASE, "--version", "--json"], capture_output=True, text=True, check=True)
+    targets = json.loads(version.stdout)["simd_targets"]
     scenes = sys.argv[1:] or sorted(file.stem for file in (ROOT / "scenes").glob("*.toml"))
     same = 0
     for scene in scenes:
         for size in ("96x54", "320x180") if scene in LARGER else ("96x54",):
             name = f"{scene} {size}"
             if name not in known:
-                expected = draw([RELEASE], scene, size)
                 got = draw(["qemu-aarch64-static", "-L", ROOT / "build/arm64-root", ARM], scene, size)
-                if got != expected or [len(hashes) for hashes in got] != [2, 2]:
-                    sys.exit(f"error: {name}: pictures and labels {got}, allowed {expected}")
+                for target in targets:
+                    expected = draw([RELEASE, "--simd", target], scene, size)
+                    if got != expected or [len(hashes) for hashes in got] != [2, 2]:
+                        sys.exit(f"error: {name}: pictures and labels {got}, allowed {expected} of {target}")
                 with KNOWN.open("a", encoding="utf-8") as file:
                     file.write(name + "\n")
             same += 2
