@@ -16,7 +16,6 @@
 #include "render/world/world_state.h"
 
 namespace swell::render {
-namespace {
 
 RefractionBlur make_refraction_blur(const MaterialInputs& in, const View& camera) {
   // Slope variance, both axes together, by which footprints of 2^level_m metres and twice that
@@ -39,7 +38,7 @@ RefractionBlur make_refraction_blur(const MaterialInputs& in, const View& camera
   const double px_per_slope =
       std::abs(kRefractedDistortion) * distortion.across * distortion.px_per_slope;
   for (float& level : levels) {
-    const double px = px_per_slope * std::sqrt(0.5 * level);
+    const double px = px_per_slope * std::sqrt(0.5 * std::max(level, 0.0f));
     level = static_cast<float>(log(std::max(px, 1e-3)) * 1.4426950408889634);
   }
   RefractionBlur blur;
@@ -53,10 +52,7 @@ RefractionBlur make_refraction_blur(const MaterialInputs& in, const View& camera
   return blur;
 }
 
-}  // namespace
-
-Caustics make_caustics(const MaterialInputs& in, const View& camera) {
-  const glm::dvec2 eye(camera.eye_world);
+Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye) {
   const CausticMaps& maps = in.sea.caustics;
   Caustics caustics;
   caustics.patches = maps.patches;
@@ -71,7 +67,6 @@ Caustics make_caustics(const MaterialInputs& in, const View& camera) {
     caustics.bend_m = static_cast<float>(in.world.scene.water.caustic_distortion);
     caustics.ripples = make_ripples(in, eye);
   }
-  if (maps.patches > 0) caustics.blur = make_refraction_blur(in, camera);
   for (std::size_t p = 0; p < maps.patches; ++p) {
     CausticPatch& patch = caustics.patch[p];
     for (std::size_t k = 0; k < CausticMaps::kDepths; ++k)

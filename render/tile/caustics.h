@@ -48,9 +48,12 @@ struct Caustics {
   // How ripples move the lookup.
   float bend_m = 0.0f;  // Cc, 0: not at all
   Ripples ripples;
-  RefractionBlur blur;  // in views through the water's surface
+  RefractionBlur blur;  // of views through the water's surface
 };
 
-Caustics make_caustics(const MaterialInputs& in, const View& camera);
+// camera: of a view through the water's surface.
+RefractionBlur make_refraction_blur(const MaterialInputs& in, const View& camera);
+
+Caustics make_caustics(const MaterialInputs& in, glm::dvec2 eye);
 
 }  // namespace swell::render

@@ -20,7 +20,9 @@ void fill_shading(const MaterialInputs& in, const RenderView& view, int tile_siz
   shading.light.stars.pixel_angle = shading.light.calm.pixel_angle = shading.rays.pixel_angle;
   shading.media = in.media;
   fill_sun_shadow(in, view, shading.grid, shading.sun_shadow);
-  shading.caustics = make_caustics(in, view.camera);
+  shading.caustics = make_caustics(in, glm::dvec2(view.camera.eye_world));
+  if (view.kind == ViewKind::kRefraction && shading.caustics.patches > 0)
+    shading.caustics.blur = make_refraction_blur(in, view.camera);
   // The sea's long waves do not come into lakes.
   if (in.media.water_level_m != 0.0f)
     shading.caustics.patches = std::min<std::size_t>(shading.caustics.patches, 1);
