@@ -61,7 +61,7 @@ constexpr Round kThird = {{EachBlock(0x2aaa), EachBlock(0x2aaa)}, 1};
 static_assert((kFirstColumns[0] | kSecond.columns[0] | kThird.columns[0]) == ~RowBits{0});
 static_assert((kFirstColumns[1] | kSecond.columns[1] | kThird.columns[1]) == ~RowBits{0});
 constexpr float kMostAlong = 8.0f, kMostAcross = 5.0f;  // differences in brightness, of 255
-constexpr float kMostAround = 17.0f;                    // the same, of two columns' worth
+constexpr float kMostAround = 17.0f;                    // of a column and half of each beside it
 
 HWY_INLINE RowBits BitsOf(M mask) {
   std::conditional_t<kLanes <= 8, std::uint8_t, std::uint16_t> bits = 0;
