@@ -30,7 +30,8 @@ struct alignas(16) PackedWord {
 struct PackedMap2 {
   int size = 0;    // power of two, [1, 4096]
   int levels = 0;  // log2(size) + 1
-  // Levels below this hold detail worth blending, [1, kMostDetailLevels]: all but the two coarsest.
+  // Levels below this hold detail worth blending, at most kMostDetailLevels: all but the two
+  // coarsest and those with too little variance; at least 1, or 0 if there is too little in all.
   // The words of the last of them blend to 0.
   int detail_levels = 1;
   float scale = 1.0f;
@@ -56,10 +57,11 @@ inline constexpr int kMostDetailLevels = 7;
 // [1 2 1]/4 along each axis, centred on every second sample: it keeps the mean, and all levels
 // agree on positions (a 2 x 2 box would shift each level by half a texel). scale = max |value| /
 // 127 (1 if all are 0), or `fixed_scale` if positive (values are clamped). Bytes are rounded to
-// nearest even. Values must be finite. Keeps capacity; allocates nothing when sizes repeat.
-// Single-threaded; the same bits on every SIMD target.
+// nearest even. Values must be finite. A level whose mean square, of a and b together, is below
+// `least_variance` has no detail, and no coarser one has. Keeps capacity; allocates nothing when
+// sizes repeat. Single-threaded; the same bits on every SIMD target.
 void pack_map2(int size, std::span<const float> a, std::span<const float> b, float fixed_scale,
-               PackedMap2& map);
+               PackedMap2& map, float least_variance = 0.0f);
 
 // A periodic map of one channel in [-1, 1] with mip levels, laid out as PackedMap2's, but that a
 // word holds a texel's quad and nothing else: 127 times the values from the low byte up, v(i,j)

@@ -325,7 +325,8 @@ void build_map1(const float* values, PackedMap1& map) {
   }
 }
 
-void build_map(const float* a, const float* b, float fixed_scale, PackedMap2& map) {
+void build_map(const float* a, const float* b, float fixed_scale, float least_variance,
+               PackedMap2& map) {
   const std::size_t texels = static_cast<std::size_t>(map.size) * map.size;
   map.scale = fixed_scale;
   if (!(fixed_scale > 0.0f)) {
@@ -344,6 +345,8 @@ void build_map(const float* a, const float* b, float fixed_scale, PackedMap2& ma
     if (level == 0) first_mean = squares.texels / static_cast<double>(level_texels);
     const double mean = (squares.texels - squares.lost_between) / static_cast<double>(level_texels);
     map.lost_variance[level] = static_cast<float>(std::max(0.0, first_mean - mean));
+    if (mean < static_cast<double>(least_variance))
+      map.detail_levels = std::min(map.detail_levels, level);
     if (size == 1) break;
     filter_down(a, size, column, next);
     filter_down(b, size, column, next + level_texels / 4);
@@ -378,7 +381,7 @@ void pack_map1(int size, std::span<const float> values, PackedMap1& map) {
 }
 
 void pack_map2(int size, std::span<const float> a, std::span<const float> b, float fixed_scale,
-               PackedMap2& map) {
+               PackedMap2& map, float least_variance) {
   SWELL_CHECK(size >= 1 && size <= 4096 && std::has_single_bit(static_cast<unsigned>(size)),
               "size={}", size);
   const std::size_t texels = static_cast<std::size_t>(size) * size;
@@ -397,7 +400,7 @@ void pack_map2(int size, std::span<const float> a, std::span<const float> b, flo
   }
   map.scratch.resize(size + 1 + texels);  // a row; levels 1, 2, ... of both channels: 2/3 texels
   map.scratch_bytes.resize(2 * static_cast<std::size_t>(size + 1) * size);
-  HWY_DYNAMIC_DISPATCH(build_map)(a.data(), b.data(), fixed_scale, map);
+  HWY_DYNAMIC_DISPATCH(build_map)(a.data(), b.data(), fixed_scale, least_variance, map);
 }
 
 }  // namespace swell::texture

@@ -67,14 +67,14 @@ constexpr int kSize = 64;
 constexpr float kLength_m = 16.0f;
 
 struct WaveLayer {
-  explicit WaveLayer(int cycles) {
+  explicit WaveLayer(int cycles, float least_variance = 0.0f) {
     std::vector<float> a, b;
     for (int i = 0; i < kSize * kSize; ++i) {
       const double wave = std::cos(kTurn * (0.125 + cycles * (i % kSize) / 64.0));
       a.push_back(static_cast<float>(kSlopeX * wave));
       b.push_back(static_cast<float>(kSlopeY * wave));
     }
-    texture::pack_map2(kSize, a, b, 0.0f, map);
+    texture::pack_map2(kSize, a, b, 0.0f, map, least_variance);
     layer = make_layer(map, kLength_m, static_cast<float>(kGain), {0.0, 0.0}, {});
   }
   // The mean square of the slopes at places on and between the map's texels, and the variance said
@@ -178,6 +178,27 @@ TEST_P(MapLayers, LevelsBeyondTheMapHoldNothingButVariance) {
     EXPECT_NEAR(lost, kVariance, 1e-4 * kVariance) << level;
   }
   EXPECT_EQ(wave.shown_and_lost(-9.0), wave.shown_and_lost(0.0));
+}
+
+TEST_P(MapLayers, LevelsOfTooLittleVarianceHoldNothingButVariance) {
+  constexpr int kCycles = 5;
+  const auto left = [](int level) {
+    return part_shown(kCycles, level) * kVariance / (kGain * kGain);
+  };
+  for (const int levels : {0, 1, 2, 3}) {
+    const double least = levels == 0 ? 1.1 * left(0) : 0.5 * (left(levels - 1) + left(levels));
+    const WaveLayer wave(kCycles, static_cast<float>(least)), all(kCycles);
+    ASSERT_EQ(wave.map.detail_levels, levels);
+    for (int level = 0; level <= 4; ++level) {
+      const auto [shown, lost] = wave.shown_and_lost(level);
+      if (level < levels) {
+        EXPECT_EQ(std::pair(shown, lost), all.shown_and_lost(level)) << level;
+      } else {
+        EXPECT_EQ(shown, 0.0) << level;
+        EXPECT_NEAR(lost, kVariance, 1e-4 * kVariance) << level;
+      }
+    }
+  }
 }
 
 // No place is outside of a map that repeats, not even one that is no number; and what is read there
