@@ -158,27 +158,65 @@ HWY_INLINE RowBits Differ(const float* a, const float* b, int side, float most) 
   return bits;
 }
 
-// Puts the light between neighbours into the columns `row` of a round, and their brightness.
-HWY_INLINE void FillBetween(const Round& round, RowBits row, std::size_t first,
-                            ShadeScratch& scratch) {
-  const D d;
-  const bool has_14 = round.step == 2;
-  for (std::size_t x = static_cast<std::size_t>(round.step); x < 64; x += kLanes) {
-    const M filled = LanesOf(row >> x);
-    if (hn::AllFalse(d, filled)) continue;
-    const M is_14 = LanesOf(has_14 ? kColumn14 >> x : 0);
-    const V from_left = IfThenElse(is_14, 1.0f / 3.0f, Constant(0.5f));
-    const std::array<float*, 4> planes = {scratch.red.data(), scratch.green.data(),
-                                          scratch.blue.data(), scratch.brightness.data()};
-    const std::size_t count = has_14 ? 4 : 3;  // nobody asks for the last round's brightness
-    for (std::size_t k = 0; k < count; ++k) {
-      float* const here = planes[k] + first + x;
-      V right = hn::LoadU(d, here + round.step);
-      if (has_14) right = IfThenElse(is_14, hn::LoadU(d, here + 1), right);
-      const V between = MulAdd(hn::LoadU(d, here - round.step) - right, from_left, right);
-      hn::StoreU(IfThenElse(filled, between, hn::LoadU(d, here)), d, here);
-    }
+// Every second of the numbers of `low` and `high`, from the first or the second on.
+HWY_INLINE V Evens(V low, V high) { return hn::ConcatEven(D(), high, low); }
+HWY_INLINE V Odds(V low, V high) { return hn::ConcatOdd(D(), high, low); }
+
+// The k-th part of what kLanes pixels hold.
+HWY_INLINE V PartOf(const PixelLight* pixels, std::size_t k) {
+  return hn::Load(D(), &pixels->red + k * kLanes);
+}
+
+inline HWY_NOINLINE void FindBrightness(int side, int height, ShadeScratch& scratch) {
+  const auto count = static_cast<std::size_t>(side * height);
+  for (std::size_t at = 0; at < count; at += kLanes) {
+    const PixelLight* const pixels = scratch.pixels.data() + at;
+    const V low = Odds(PartOf(pixels, 0), PartOf(pixels, 1));
+    const V high = Odds(PartOf(pixels, 2), PartOf(pixels, 3));
+    hn::Store(Odds(low, high), D(), scratch.brightness.data() + at);
   }
+}
+
+// Puts the surfaces' light where the tile's is.
+inline HWY_NOINLINE void WriteSurfaces(int side, int height, const TileBits& surfaces,
+                                       ShadeScratch& scratch) {
+  const D d;
+  constexpr RowBits kWhole = ~RowBits{0} >> (64 - kLanes);
+  const auto write = [&](RowBits shown, V values, float* to) HWY_ATTR {
+    if (shown == kWhole)
+      hn::Store(values, d, to);
+    else
+      hn::BlendedStore(values, LanesOf(shown), d, to);
+  };
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < side; x += static_cast<int>(kLanes)) {
+      const RowBits shown = surfaces[y] >> x & kWhole;
+      if (shown == 0) continue;
+      const auto at = static_cast<std::size_t>(y * side + x);
+      const PixelLight* const pixels = scratch.pixels.data() + at;
+      const V a = PartOf(pixels, 0), b = PartOf(pixels, 1);
+      const V c = PartOf(pixels, 2), e = PartOf(pixels, 3);
+      const V low = Evens(a, b), high = Evens(c, e);
+      write(shown, Evens(low, high), scratch.red.data() + at);
+      write(shown, Evens(Odds(a, b), Odds(c, e)), scratch.green.data() + at);
+      write(shown, Odds(low, high), scratch.blue.data() + at);
+    }
+}
+
+// Puts the light between neighbours into the columns `row` of a round.
+HWY_INLINE void FillBetween(const Round& round, RowBits row, PixelLight* pixels) {
+  const hn::Full128<float> d;
+  const auto fill = [&](RowBits columns, int left, int right, float from_left) HWY_ATTR {
+    for (; columns != 0; columns &= columns - 1) {
+      PixelLight* const here = pixels + std::countr_zero(columns);
+      const auto beside = hn::Load(d, &here[right].red);
+      const auto difference = hn::Sub(hn::Load(d, &here[-left].red), beside);
+      hn::Store(hn::MulAdd(difference, hn::Set(d, from_left), beside), d, &here->red);
+    }
+  };
+  const RowBits at_14 = round.step == 2 ? row & kColumn14 : 0;
+  fill(row & ~at_14, round.step, round.step, 0.5f);
+  fill(at_14, 2, 1, 1.0f / 3.0f);
 }
 
 // The right one of the two neighbours that a round's columns lie between.
@@ -201,7 +239,7 @@ HWY_INLINE void FillRound(const Round& round, int side, int height, const TileSu
     const RowBits always = surfaces.always[y];
     alike &= is_alike(y) & ~(always << round.step | NextToTheRight(round, always));
     const RowBits wanted = surfaces.all[y] & round.columns[y % 2] & ~always;
-    FillBetween(round, wanted & alike, static_cast<std::size_t>(y * side), scratch);
+    FillBetween(round, wanted & alike, scratch.pixels.data() + y * side);
     rows[y] = wanted & ~alike;
   }
 }
@@ -299,10 +337,13 @@ std::size_t ShadeWhereNeeded(const Shading& s, const TilePixels& tile, const Til
   for (int y = 0; y < height; ++y)
     rows[y] = surfaces.all[y] & (kFirstColumns[y % 2] | surfaces.always[y]);
   shade_rows(rows, true);
+  FindBrightness(side, height, scratch);
   FillSecondRound(side, height, surfaces, scratch, rows);
   shade_rows(rows, false);
+  FindBrightness(side, height, scratch);
   FillThirdRound(side, height, surfaces, scratch, rows);
   shade_rows(rows, false);
+  WriteSurfaces(side, height, surfaces.all, scratch);
   return shaded;
 }
 

@@ -40,12 +40,34 @@ HWY_INLINE void ScatterColour(const V3& colour, const std::uint16_t* at, float* 
   ScatterLanes(colour.z, at, blue);
 }
 
+// Writes each lane's pixel to where `at` says.
+HWY_INLINE void ScatterPixels(const V3& colour, V brightness, const std::uint16_t* at,
+                              PixelLight* to) {
+  const D d;
+  const hn::Repartition<std::uint64_t, D> d64;
+  // The four numbers of lanes 0, 1, 2 and 3 of each four.
+  HWY_ALIGN std::array<std::array<float, kLanes>, 4> parts;
+  const auto store = [&](std::size_t first, V red_green, V blue_brightness) HWY_ATTR {
+    const auto rg = hn::BitCast(d64, red_green), bb = hn::BitCast(d64, blue_brightness);
+    hn::Store(hn::BitCast(d, hn::InterleaveLower(d64, rg, bb)), d, parts[first].data());
+    hn::Store(hn::BitCast(d, hn::InterleaveUpper(d64, rg, bb)), d, parts[first + 1].data());
+  };
+  store(0, hn::InterleaveLower(d, colour.x, colour.y),
+        hn::InterleaveLower(d, colour.z, brightness));
+  store(2, hn::InterleaveUpper(d, colour.x, colour.y),
+        hn::InterleaveUpper(d, colour.z, brightness));
+  const hn::Full128<float> d4;
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    hn::Store(hn::Load(d4, parts[lane % 4].data() + lane / 4 * 4), d4, &to[at[lane]].red);
+}
+
 // Listed pixels, a packet from `at` on.
 struct PixelsInTile {
   const Shading& s;
   const TilePixels& tile;
   const PixelList& list;
   ShadeScratch& scratch;
+  bool is_adaptive;            // colours go into scratch.pixels, not into the planes
   BrightnessScale brightness;  // that tells this material's pixels apart
 
   // A run of neighbours is loaded and stored whole; a padded packet is none.
@@ -75,21 +97,16 @@ struct PixelsInTile {
   HWY_INLINE void Store(std::size_t i, const V3& colour) const {
     const D d;
     const std::uint16_t* at = list.at + i;
-    const bool is_run = IsRun(i);
-    if (s.is_adaptive) {
-      const V shown = BrightnessOf(colour, brightness, s.exposure);
-      if (is_run)
-        hn::StoreU(shown, d, scratch.brightness.data() + at[0]);
-      else
-        ScatterLanes(shown, at, scratch.brightness.data());
-    }
-    if (is_run) {
+    if (is_adaptive) {
+      ScatterPixels(colour, BrightnessOf(colour, brightness, s.exposure), at,
+                    scratch.pixels.data());
+    } else if (IsRun(i)) {
       hn::StoreU(colour.x, d, scratch.red.data() + at[0]);
       hn::StoreU(colour.y, d, scratch.green.data() + at[0]);
       hn::StoreU(colour.z, d, scratch.blue.data() + at[0]);
-      return;
+    } else {
+      ScatterColour(colour, at, scratch.red.data(), scratch.green.data(), scratch.blue.data());
     }
-    ScatterColour(colour, at, scratch.red.data(), scratch.green.data(), scratch.blue.data());
   }
 };
 

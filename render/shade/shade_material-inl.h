@@ -94,7 +94,9 @@ HWY_NOINLINE void ShadePixels(const Shading& s, const TilePixels& tile, const Pi
         });
       }
     };
-    shade_list(PixelsInTile{s, tile, list, scratch, BrightnessScaleOf<M>(s.media)}, keep);
+    const bool is_adaptive = kView == ViewKind::kWindow && s.is_adaptive;
+    shade_list(PixelsInTile{s, tile, list, scratch, is_adaptive, BrightnessScaleOf<M>(s.media)},
+               keep);
     if (kView != ViewKind::kWindow || tile.fragments.empty()) return;
     const PixelList parts = ListFragments(tile.fragments, s.primitives.begin(M::kSurface),
                                           s.primitives.end(M::kSurface), scratch);

@@ -26,11 +26,17 @@ struct SkyNodes {
   alignas(64) std::array<std::array<float, kStride * 17>, kAirChannels> air{};
 };
 
+// A pixel's light, and how bright that is as shown, of 255.
+struct alignas(16) PixelLight {
+  float red = 0.0f, green = 0.0f, blue = 0.0f, brightness = 0.0f;
+};
+
 // Working memory of one thread.
 struct ShadeScratch {
   alignas(64) std::array<float, kMaxTilePixels + kListPadding> red, green, blue;
-  // As shown, of 255; for shading that is adaptive.
-  alignas(64) std::array<float, kMaxTilePixels + kListPadding> brightness{};
+  // Surfaces where shading is adaptive: pixels far apart are written and read one by one.
+  alignas(64) std::array<PixelLight, kMaxTilePixels + kListPadding> pixels{};
+  alignas(64) std::array<float, kMaxTilePixels + kListPadding> brightness{};  // of `pixels`
   SkyNodes sky;
   ShaftNodes shafts;
   // By material, of which each kind of surface has one at most, and the sky last: its pixels,
