@@ -270,9 +270,7 @@ HWY_INLINE V3 BedLight(const Shading& s, const River& river, const RiverAt& at,
   const V3 of_sky = Constant(river.sky_light) * AmbientUnderClouds(s, packet.p);
   const V3 lit = MulAdd(Constant(river.sun_light), gathered, of_sky) * bed;
   const V length = MulAdd(depth, kDaylightSlant, Min(path, 200.0f));
-  const V shade = MulSub(sun_visible, 0.6f, 0.6f);
-  const V3 seen = AbsorbInWater(s.media, {depth, length}, lit);
-  return MulAdd(Constant(s.media.body_sun), shade, seen);
+  return AbsorbInWater(s.media, {depth, length}, DeepWater(s, packet.p, sun_visible), lit);
 }
 
 // What a packet shows of rivers, with the sea's part where they end.

@@ -39,12 +39,7 @@ HWY_INLINE V3 ArrivingLight(const Shading& s, const TilePixels& tile, const Lane
     return Air::IsOn(s) ? result.light : Haze(s, shown, result.light);
   } else {
     const Seen seen = FindSeen<kView>(s, shown, WaterLevel(material, s, lanes));
-    const auto result = shade(s, tile, lanes, seen.packet, found...);
-    const V3 light = Attenuate<kView>(s, shown, seen, result.light);
-    if constexpr (requires { result.cover; })
-      return s.media.submerged ? light : Lerp(Constant(s.media.body), light, result.cover);
-    else
-      return light;
+    return Attenuate<kView>(s, shown, seen, shade(s, tile, lanes, seen.packet, found...));
   }
 }
 

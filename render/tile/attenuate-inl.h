@@ -8,6 +8,7 @@
 
 #include "render/packets/packet-inl.h"
 #include "render/tile/media-inl.h"
+#include "render/tile/sun_shadow-inl.h"
 #include "render/tile/through_water-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -81,23 +82,41 @@ HWY_INLINE Seen FindSeen(const Shading& s, const Packet& shown, V level) {
   return seen;
 }
 
-// Light that leaves a surface, as it arrives: through air, or through water up to the surface. To
-// an eye under water it arrives at the surface.
-template <ViewKind kView>
-HWY_INLINE V3 Attenuate(const Shading& s, const Packet& shown, const Seen& seen, V3 light) {
+// Deep water where the eye looks into it, towards what the refraction image shows.
+HWY_INLINE V3 DeepWaterBefore(const Shading& s, const Packet& shown, const Seen& seen) {
+  const V level = seen.packet.p.z + seen.path.depth;
+  const V3 entered = shown.p * (level / Min(shown.p.z, -1e-3f));
+  return DeepWater(s, entered, SunOverLandAndClouds(s, entered));
+}
+
+// What a surface shows, as it arrives: through air, or through water up to the surface. To an eye
+// under water it arrives at the surface. What ends softly ends in the medium.
+template <ViewKind kView, class Result>
+HWY_INLINE V3 Attenuate(const Shading& s, const Packet& shown, const Seen& seen,
+                        const Result& result) {
+  const auto or_medium = [&](const V3& medium, const V3& light) HWY_ATTR {
+    if constexpr (requires { result.cover; })
+      return Lerp(medium, light, result.cover);
+    else
+      return light;
+  };
   if constexpr (kView == ViewKind::kRefraction) {
-    if (!s.media.submerged) return AbsorbInWater(s.media, seen.path, light);
+    if (!s.media.submerged) {
+      const V3 body = DeepWaterBefore(s, shown, seen);
+      return or_medium(body, AbsorbInWater(s.media, seen.path, body, result.light));
+    }
     const V height = seen.packet.p.z - s.media.eye_depth_m;
     const AirWay way = WayFromSea(-seen.packet.to_eye, seen.packet.distance, height, seen.packet.p);
-    return ThroughMediaBeyond(s, way, Haze(s, seen.packet, light));
+    return ThroughMediaBeyond(s, way, Haze(s, seen.packet, result.light));
   } else if (s.media.submerged) {
-    return ThroughWater(s.media, glm::vec3(1.0f), seen.way, light);
+    return ThroughWater(s.media, glm::vec3(1.0f), seen.way, result.light);
   } else {
     // Beyond the water, before which are media of its own.
     const V height = (seen.packet.p.z - shown.p.z) * 0.5f;
     const V part = Clamp(height / Max(-shown.p.z, 1e-3f), 0.0f, 1.0f);
     const AirWay way = WayFromSea(-shown.to_eye, shown.distance * part, height, seen.packet.p);
-    return ThroughMediaBeyond(s, way, Haze(s, shown, light));
+    return or_medium(Constant(s.media.body),
+                     ThroughMediaBeyond(s, way, Haze(s, shown, result.light)));
   }
 }
 

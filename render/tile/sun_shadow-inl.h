@@ -127,6 +127,26 @@ HWY_INLINE V AmbientUnderClouds(const Shading& s, const V3& p) {
   return MulAdd(lit - one, s.light.fog_ambient, one);
 }
 
+// What land and clouds leave of the sun at p.
+HWY_INLINE V SunOverLandAndClouds(const Shading& s, const V3& p) {
+  V visible = Constant(1.0f);
+  if (s.sun_shadow.land) visible = SunOverLand(s.sun_shadow, p, s.rays.eye_z);
+  if (s.sun_shadow.clouds)
+    visible = visible * SunUnderClouds(*s.sun_shadow.clouds, p, s.rays.eye_z);
+  return visible;
+}
+
+// Radiance of deep water at p, where light comes in from around and which so is never quite in the
+// shade.
+HWY_INLINE V3 DeepWater(const Shading& s, const V3& p, V sun_visible) {
+  V3 body = Constant(s.media.body);
+  if (s.light.fog_ambient > 0.0f) {
+    const V less = AmbientUnderClouds(s, p) - 1.0f;
+    body = MulAdd(Constant(s.media.body - s.media.body_sun), less, body);
+  }
+  return MulAdd(Constant(s.media.body_sun), MulSub(sun_visible, 0.6f, 0.6f), body);
+}
+
 // The pixels that a packet lies between.
 HWY_INLINE PixelSpan SpanOf(const Packet& packet) {
   const D d;
@@ -212,14 +232,10 @@ inline HWY_NOINLINE V SunUnderTrees(const Shading& s, const Packet& packet, V ab
 // objects they are on. The ground has a map of its own.
 HWY_INLINE V SunVisible(const Shading& s, const TilePixels& tile, const Packet& packet, V own,
                         bool is_sea = false) {
-  V visible = Constant(1.0f);
-  if (s.sun_shadow.land) visible = SunOverLand(s.sun_shadow, packet.p, s.rays.eye_z);
-  if (s.sun_shadow.clouds)
-    visible = visible * SunUnderClouds(*s.sun_shadow.clouds, packet.p, s.rays.eye_z);
-  if (!tile.casters.empty())
-    visible = visible * SunOverObjects(s.sun_shadow, tile.casters, SpanOf(packet),
-                                       {packet.p, PixelSoftness(s, packet.depth), own, is_sea});
-  return visible;
+  const V visible = SunOverLandAndClouds(s, packet.p);
+  if (tile.casters.empty()) return visible;
+  return visible * SunOverObjects(s.sun_shadow, tile.casters, SpanOf(packet),
+                                  {packet.p, PixelSoftness(s, packet.depth), own, is_sea});
 }
 
 // The part of the sun's light that trees leave on the sea.

@@ -47,17 +47,16 @@ HWY_INLINE WaterPath PathThroughWater(const Media& media, const Packet& packet, 
   return {depth, MulAdd(depth, kDaylightSlant, path_up)};  // sunlight comes down at a slant
 }
 
-// Light is lost on its way, and the water body's takes its place (Beer-Lambert).
-HWY_INLINE V3 AbsorbInWater(const Media& media, const WaterPath& path, V3 light) {
+// Light is lost on its way, and that of the water's body takes its place (Beer-Lambert).
+HWY_INLINE V3 AbsorbInWater(const Media& media, const WaterPath& path, const V3& body, V3 light) {
   const D d;
   const glm::vec3 absorption = media.absorption_per_m;
-  const auto lost = [&](float per_m, V body, V seen) {
+  const auto lost = [&](float per_m, V scattered, V seen) {
     const V through = Exp(d, path.length * -per_m);
-    return Lerp(body, seen, through);
+    return Lerp(scattered, seen, through);
   };
-  return {lost(absorption.x, Constant(media.body.x), light.x),
-          lost(absorption.y, Constant(media.body.y), light.y),
-          lost(absorption.z, Constant(media.body.z), light.z)};
+  return {lost(absorption.x, body.x, light.x), lost(absorption.y, body.y, light.y),
+          lost(absorption.z, body.z, light.z)};
 }
 
 // Whether what a view shows lies in water.

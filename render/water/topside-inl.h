@@ -169,23 +169,14 @@ HWY_INLINE Looked ReflectedLight(const Shading& shading, const Packet& packet, c
   return {Lerp(mirrored, image.light, image.alpha), image.alpha};
 }
 
-// Radiance of deep water where nothing but clouds' shadows in fog dim it.
-HWY_INLINE V3 BodyUnderClouds(const Shading& s, const V3& p) {
-  const V3 body = Constant(s.media.body);
-  if (s.light.fog_ambient <= 0.0f) return body;
-  const V less = AmbientUnderClouds(s, p) - 1.0f;
-  return MulAdd(Constant(s.media.body - s.media.body_sun), less, body);
-}
-
 struct Refracted {
   V3 light;
   V image_alpha;   // the part of it that the refraction image shows
   V3 floor_added;  // what that changes
 };
 
-// What comes up through the surface: scattered light of the water body, which comes in from around
-// and so is never quite in the shade, brighter in thin crests against the sun, and the floor where
-// the refraction image shows one.
+// What comes up through the surface: scattered light of the water body, brighter in thin crests
+// against the sun, and the floor where the refraction image shows one.
 HWY_INLINE Refracted RefractedLight(const Shading& shading, const Water& water,
                                     const Packet& packet, const WaterSlopes& s, V sun_visible,
                                     bool use_image) {
@@ -199,10 +190,8 @@ HWY_INLINE Refracted RefractedLight(const Shading& shading, const Water& water,
                                     packet.to_eye.y * shading.light.sun_direction.y),
                             0.0f);
   const V glow = crest * crest * MulAdd(towards_sun, sun_visible, 0.35f);
-  const V shade = MulSub(sun_visible, 0.6f, 0.6f);
   const V3 crest_light = Constant(water.optics.crest_glow) * glow;
-  V3 deep = crest_light +
-            MulAdd(Constant(shading.media.body_sun), shade, BodyUnderClouds(shading, packet.p));
+  V3 deep = crest_light + DeepWater(shading, packet.p, sun_visible);
   if (water.bump_detail.on() || water.texture.on())
     deep = deep * OwnColour(shading, water, packet, NormalOf(s.slope_x, s.slope_y), sun_visible);
   if (!use_image) return {deep, hn::Zero(D()), Constant(glm::vec3(0.0f))};

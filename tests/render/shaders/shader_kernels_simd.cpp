@@ -184,7 +184,7 @@ void Absorb(const Media& media, std::span<const float> length_m, glm::vec3 light
             std::span<glm::vec3> seen) {
   ForPackets(seen.size(), [&](std::size_t i) {
     const WaterPath path = {hn::Zero(D()), LoadSome(length_m, i)};
-    StoreSome(AbsorbInWater(media, path, Constant(light)), seen, i);
+    StoreSome(AbsorbInWater(media, path, Constant(media.body), Constant(light)), seen, i);
   });
 }
 

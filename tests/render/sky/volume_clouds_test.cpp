@@ -351,6 +351,29 @@ TEST(CloudShadows, TakeTheGlitterFromTheWater) {
   EXPECT_NEAR(glitter(under_y - 6000.0, {}), lit, 0.02 * lit);
 }
 
+// West of the lagoon's island the floor is too deep to be seen: there the image of what lies under
+// water, which ends with the map, must show water in the same shade.
+TEST(CloudShadows, GoOnWhereAMapEnds) {
+  const World& world = shipped_world("lagoon");
+  const View view =
+      make_view({-15.0, -890.0, 1500.0}, 0.0, radians(-60.0), radians(50.0), 0.25f, 320, 180);
+  const Shot with(world, view, 5.0);
+  const Shot unseen(world, view, 5.0, {.without = {Part::kRefraction}});
+  const Shot lit(world, view, 5.0, {.without = {Part::kCloudShadows}});
+  const auto green = [](const Shot& shot, std::size_t i) {
+    return static_cast<int>(shot.target.rgba[i] >> 8 & 255);
+  };
+  int off = 0, shade = 0;
+  for (std::size_t y = 100; y < 160; ++y)
+    for (std::size_t x = 76; x < 88; ++x) {
+      const std::size_t i = y * 320 + x;
+      off += green(with, i) - green(unseen, i);
+      shade += green(lit, i) - green(with, i);
+    }
+  EXPECT_LE(std::abs(off), 0.5 * 60 * 12);
+  EXPECT_GT(shade, 2 * 60 * 12);
+}
+
 // The texels of a level stand still in the world.
 TEST(CloudShadows, DoNotCrawlWithTheCamera) {
   scene::Scene scene = cloudy_scene();
