@@ -32,7 +32,7 @@ struct PackedMap2 {
   int levels = 0;  // log2(size) + 1
   // Levels below this hold detail worth blending, at most kMostDetailLevels: all but the two
   // coarsest and those with too little variance; at least 1, or 0 if there is too little in all.
-  // The words of the last of them blend to 0.
+  // The words of the last of them blend to 0; without any all are 0.
   int detail_levels = 1;
   float scale = 1.0f;
   std::vector<PackedWord> words;

@@ -268,6 +268,10 @@ void join_levels(const PackedQuad* HWY_RESTRICT fine, const PackedQuad* HWY_REST
 }
 
 void join_all_levels(PackedMap2& map) {
+  if (map.detail_levels == 0) {
+    std::ranges::fill(map.words, PackedWord{0, 0});
+    return;
+  }
   for (int level = 0; level < map.levels; ++level) {
     const PackedQuad* const quads = map.scratch_quads.data();
     const bool blends = level + 1 < map.levels && level + 1 != map.detail_levels;

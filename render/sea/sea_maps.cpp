@@ -9,7 +9,6 @@
 #include "ocean/open_sea/sea_state.h"
 #include "ocean/wakes/wakes.h"
 #include "ocean/water_surface.h"
-#include "render/tile/ripples.h"
 #include "render/world/coast_maps.h"
 #include "render/world/world_state.h"
 
@@ -29,12 +28,17 @@ void bake_coast(const WorldState& world, double t_s, SeaMaps& sea, Workers& work
                     sea.coast_foam, workers);
 }
 
-// Nobody sees a hundredth of the slope variance that any water has, `base_variance`.
-void pack_patch(const ocean::PatchFrame& patch, float base_variance, texture::PackedMap2& map) {
+// Nobody sees what has a two-thousandth of the slope variance of all patches.
+float least_slope_variance(const ocean::SeaFrame& sea) {
+  float all = 0.0f;
+  for (const ocean::PatchFrame& patch : sea.patches) all += patch.slope_variance;
+  return all / 2000.0f;
+}
+
+void pack_patch(const ocean::PatchFrame& patch, float least_variance, texture::PackedMap2& map) {
   // A scale fixed by the sea state, not by the frame, so that codes do not flicker.
   const float scale = 5.0f * std::sqrt(std::max(patch.slope_variance, 1e-8f)) / 127.0f;
-  texture::pack_map2(patch.resolution, patch.slope_x, patch.slope_y, scale, map,
-                     0.01f * base_variance);
+  texture::pack_map2(patch.resolution, patch.slope_x, patch.slope_y, scale, map, least_variance);
 }
 
 // A sea that loops has whole cells of noise in its loop, two at least: one would stand still.
@@ -187,7 +191,7 @@ void advance_sea(const WorldState& world, double t_s, std::span<const ocean::Dis
       pack_foam(sea.whitecaps.patches[i], sea.whitecaps.past, sea.foam_values[i], sea.foam[i]);
       sea.foam_blocks[i] = find_foam_blocks(sea.whitecaps.patches[i]);
     } else if (i < noise)
-      pack_patch(sea.frame.patches[i - foams], base_variance(world.scene),
+      pack_patch(sea.frame.patches[i - foams], least_slope_variance(sea.frame),
                  sea.patch_slopes[i - foams]);
     else if (i == noise)
       pack_noise(world.scene.sea, t_s, sea);

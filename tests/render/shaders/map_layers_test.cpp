@@ -189,6 +189,10 @@ TEST_P(MapLayers, LevelsOfTooLittleVarianceHoldNothingButVariance) {
     const double least = levels == 0 ? 1.1 * left(0) : 0.5 * (left(levels - 1) + left(levels));
     const WaveLayer wave(kCycles, static_cast<float>(least)), all(kCycles);
     ASSERT_EQ(wave.map.detail_levels, levels);
+    // Whoever samples a map without detail all the same finds nothing.
+    EXPECT_EQ(
+        std::ranges::count(wave.map.words, texture::PackedWord{0, 0}) == std::ssize(wave.map.words),
+        levels == 0);
     for (int level = 0; level <= 4; ++level) {
       const auto [shown, lost] = wave.shown_and_lost(level);
       if (level < levels) {
