@@ -46,11 +46,13 @@ class OneFolder : public Assimp::DefaultIOSystem {
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     const fs::path path = allowed_path(file);
     if (mode[0] != 'r' || path.empty()) return nullptr;
-    std::error_code error;
-    const std::uint64_t bytes = fs::file_size(path, error);
-    taken_ += bytes;
-    if (error || taken_ > shapes::kMostMeshFileBytes) return nullptr;
-    if (opened_.insert(path).second) count_inputs_(bytes);
+    if (opened_.insert(path).second) {  // readers open a file more than once
+      std::error_code error;
+      const std::uint64_t bytes = fs::file_size(path, error);
+      taken_ += error ? shapes::kMostMeshFileBytes : bytes;
+      count_inputs_(bytes);
+    }
+    if (taken_ > shapes::kMostMeshFileBytes) return nullptr;
     return DefaultIOSystem::Open(file, "rb");
   }
 

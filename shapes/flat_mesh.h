@@ -16,7 +16,7 @@ namespace swell::shapes {
 inline constexpr std::uint32_t kFlatMagic = 0x324d5753;  // "SWM2"
 
 // Most of what a file may hold.
-inline constexpr std::uint32_t kMostMeshTriangles = 2'000'000;
+inline constexpr std::uint32_t kMostMeshTriangles = 10'000'000;
 inline constexpr std::uint32_t kMostMeshMaterials = 1024;
 inline constexpr std::uint32_t kMostMeshTextures = 64;
 inline constexpr std::uint32_t kMostMeshTexels = 1u << 24;  // of all textures of a file together

@@ -28,7 +28,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr char kImporterFile[] = "swell_mesh_import";
-constexpr std::size_t kMostStreamBytes = 800u << 20;  // of what limits allow, at the utmost
+constexpr std::size_t kMostStreamBytes = 1700u << 20;  // of what limits allow, at the utmost
 constexpr std::size_t kMostMessageBytes = 4096;
 
 void check(int error, const char* what) {

@@ -10,7 +10,7 @@
 
 namespace swell::shapes {
 
-inline constexpr int kMostImport_s = 60;  // an import takes, or else is ended
+inline constexpr int kMostImport_s = 120;  // an import takes, or else is ended
 
 // What the importer writes of the file (shapes/flat_mesh.h). It is swell_mesh_import, looked for in
 // ../lib/swell from the program (or the shared library that this code is part of), beside it, and

@@ -12,6 +12,7 @@
 
 #include "math/elementary.h"
 #include "mesh_import/mesh_files.h"
+#include "shapes/flat_mesh.h"
 #include "texture/image/image_io.h"
 
 namespace swell::shapes {
@@ -234,6 +235,17 @@ TEST(MeshFile, WhatCannotBeReadIsRefusedInOneLine) {
     EXPECT_LT(fault.size(), 400u) << name;
   }
   EXPECT_NE(refusal(folder / "a.blend").find("allowed .obj, .gltf"), std::string::npos);
+}
+
+// Readers open a file more than once, and what is left over at its end costs nothing.
+TEST(MeshFile, CountsOnceHoweverOftenItIsOpened) {
+  const fs::path file = mesh_folder("large") / "a.glb";
+  write_glb(file, box_triangles(kLow, kHigh), nullptr);
+  fs::resize_file(file, kMostMeshFileBytes);
+  EXPECT_EQ(refusal(file), "");
+  fs::resize_file(file, kMostMeshFileBytes + 1);
+  EXPECT_EQ(refusal(file), "a file of over 512 MiB, allowed 512 MiB");
+  fs::remove(file);
 }
 
 #ifdef SWELL_SANITIZED
