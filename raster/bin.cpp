@@ -31,7 +31,7 @@ void bin_by_edges(const TileGrid& grid, const TileRange& range, SampleExtent ext
     std::array<std::int64_t, 3> e = row;
     for (std::int32_t x = range.x0; x <= range.x1; ++x) {
       if ((e[0] | e[1] | e[2]) >= 0) {
-        chunk.entries.push_back({static_cast<std::uint32_t>(y * grid.tiles_x + x), index});
+        chunk.entries.push_back({static_cast<std::uint32_t>(y * grid.tiles_x + x), {index}});
       }
       for (int i = 0; i < 3; ++i) e[i] += step_x[i];
     }
@@ -51,26 +51,22 @@ TileRange tiles_to_list(const SetupTriangle& t, Viewport viewport, int samples, 
   return tiles_of(limit_to(viewport, pixels_between(bounds_of(t), sample_extent(samples))));
 }
 
-void list_entries(const TileGrid& grid, Viewport viewport, int samples, Chunk& chunk) {
+}  // namespace
+
+void list_tiles(const TileGrid& grid, Viewport viewport, int samples, std::uint32_t index,
+                Chunk& chunk) {
   const int shift = grid.tile_size_px == 64 ? 6 : grid.tile_size_px == 32 ? 5 : 4;
-  chunk.entries.clear();
-  for (std::uint32_t index = 0; index < chunk.triangles.size(); ++index) {
-    const TileRange range = tiles_to_list(chunk.triangles[index], viewport, samples, shift);
-    if (range.x0 != range.x1 && range.y0 != range.y1) {
-      bin_by_edges(grid, range, sample_extent(samples), chunk, index);
-      continue;
-    }
-    // In one row or column of tiles the triangle passes through every tile of its box.
-    for (std::int32_t y = range.y0; y <= range.y1; ++y) {
-      for (std::int32_t x = range.x0; x <= range.x1; ++x) {
-        chunk.entries.push_back({static_cast<std::uint32_t>(y * grid.tiles_x + x), index});
-      }
-    }
-  }
+  const TileRange range = tiles_to_list(chunk.triangles[index], viewport, samples, shift);
+  if (range.x0 != range.x1 && range.y0 != range.y1)
+    return bin_by_edges(grid, range, sample_extent(samples), chunk, index);
+  // In one row or column of tiles the triangle passes through every tile of its box.
+  for (std::int32_t y = range.y0; y <= range.y1; ++y)
+    for (std::int32_t x = range.x0; x <= range.x1; ++x)
+      chunk.entries.push_back({static_cast<std::uint32_t>(y * grid.tiles_x + x), {index}});
 }
 
 // A counting sort, which keeps the order within each tile.
-void sort_entries_by_tile(const TileGrid& grid, Chunk& chunk) {
+void sort_by_tile(const TileGrid& grid, Chunk& chunk) {
   std::vector<std::uint32_t>& begin = chunk.tile_begin;
   begin.assign(static_cast<std::size_t>(grid.count()) + 1, 0);
   for (const TileEntry& entry : chunk.entries) ++begin[entry.tile];
@@ -79,15 +75,8 @@ void sort_entries_by_tile(const TileGrid& grid, Chunk& chunk) {
   chunk.members.resize(chunk.entries.size());
   // Backwards, so that begin[tile] ends as the tile's first place.
   for (auto entry = chunk.entries.rbegin(); entry != chunk.entries.rend(); ++entry) {
-    chunk.members[--begin[entry->tile]] = entry->triangle;
+    chunk.members[--begin[entry->tile]] = entry->member;
   }
-}
-
-}  // namespace
-
-void bin_triangles(const TileGrid& grid, Viewport viewport, int samples, Chunk& chunk) {
-  list_entries(grid, viewport, samples, chunk);
-  sort_entries_by_tile(grid, chunk);
   chunk.statistics.binned += chunk.entries.size();
 }
 

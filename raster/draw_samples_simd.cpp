@@ -18,6 +18,7 @@
 #include <hwy/highway.h>
 
 #include "math/lanes-inl.h"
+#include "raster/small_packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::raster {
@@ -202,18 +203,67 @@ int FinishSamples(std::span<float> depth, std::span<const std::uint32_t> primiti
   return covered;
 }
 
+// Small triangles side by side: those around which no pixel is marked end here, the others are
+// drawn as those of any size.
+template <int kSamples>
+HWY_INLINE void SampleSmall(const SmallCorners* HWY_RESTRICT corners,
+                            const SmallDepths* HWY_RESTRICT depths, std::size_t count,
+                            const SampleTarget& target, Viewport viewport) {
+  const SmallVertices v = LoadVertices(corners);
+  const auto low = [](const VI(&c)[3]) HWY_ATTR { return Min(Min(c[0], c[1]), c[2]); };
+  const auto high = [](const VI(&c)[3]) HWY_ATTR { return Max(Max(c[0], c[1]), c[2]); };
+  // As of sample_rect_in_tile().
+  const auto first = [&](const VI(&c)[3], std::int32_t from_px) HWY_ATTR {
+    const std::int32_t up = kPixelFx8 - 1 - target.extent.high_fx8;
+    return Max(hn::ShiftRight<kFractionBits>(low(c) + up) - from_px, 0);
+  };
+  const auto last = [&](const VI(&c)[3], std::int32_t from_px, std::int32_t size_px) HWY_ATTR {
+    const VI end = high(c) - target.extent.low_fx8;
+    return Min(hn::ShiftRight<kFractionBits>(end) - from_px, size_px - 1);
+  };
+  const DI di;
+  alignas(64) std::array<std::int32_t, kLanes> x0, y0, x1, y1;
+  hn::Store(first(v.x, target.box.x0_px), di, x0.data());
+  hn::Store(first(v.y, target.box.y0_px), di, y0.data());
+  hn::Store(last(v.x, target.box.x0_px, target.box.width_px), di, x1.data());
+  hn::Store(last(v.y, target.box.y0_px, target.box.height_px), di, y1.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t columns = bits_between(x0[i], x1[i]);
+    std::uint64_t marked = 0;
+    for (std::int32_t y = y0[i]; y <= y1[i]; ++y) marked |= target.mask.row(y);
+    if ((marked & columns) != 0)
+      SampleTriangle<kSamples>(set_up_small(corners[i], depths[i], viewport), target);
+  }
+}
+
 template <int kSamples>
 void DrawTriangles(const Pass::State& state, int tile, const SampleTarget& target) {
+  SmallQueue small;
+  const auto draw_small = [&] HWY_ATTR {
+    small.DrawAll(
+        [&](const SmallCorners* corners, const SmallDepths* depths, std::size_t count)
+            HWY_ATTR { SampleSmall<kSamples>(corners, depths, count, target, state.viewport); });
+  };
   for (std::size_t c = 0; c < state.chunk_count; ++c) {
     const Chunk& chunk = state.chunks[c];
     const std::uint32_t end = chunk.tile_begin[tile + 1];
     constexpr std::uint32_t kAhead = 4;  // triangles fetched before their turn
     for (std::uint32_t m = chunk.tile_begin[tile]; m < end; ++m) {
-      hwy::Prefetch(&chunk.triangles[chunk.members[std::min(m + kAhead, end - 1)]]);
-      const SetupTriangle& t = chunk.triangles[chunk.members[m]];
-      if (MayHoldMarked(t, target)) SampleTriangle<kSamples>(t, target);
+      const Member member = chunk.members[m];
+      if (member.is_small()) {
+        small.Add(chunk, member.place(), member.may_cover_samples());
+        if (small.IsFull()) draw_small();
+        continue;
+      }
+      const Member ahead = chunk.members[std::min(m + kAhead, end - 1)];
+      if (!ahead.is_small()) hwy::Prefetch(&chunk.triangles[ahead.place()]);
+      const SetupTriangle& t = chunk.triangles[member.place()];
+      if (!MayHoldMarked(t, target)) continue;
+      draw_small();
+      SampleTriangle<kSamples>(t, target);
     }
   }
+  draw_small();
 }
 
 // Fills in where the marked pixels are; `column` has room for the samples of a whole tile.

@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include "math/lanes-inl.h"
+#include "raster/draw_small-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::raster {
@@ -25,12 +26,6 @@ static_assert(kLanes <= 16, "a packet must fit the smallest tile");
 
 // While a tile is drawn, a pixel without a triangle has this depth, so that depth 0 still wins.
 constexpr float kEmptyDepth = -1.0f;
-
-struct TileTarget {
-  float* HWY_RESTRICT depth;
-  std::uint32_t* HWY_RESTRICT primitive;
-  std::int32_t size, x0, y0;  // [px]
-};
 
 // The pixels of a triangle in a tile as rows of whole packets. Relative to the tile, inclusive.
 struct PacketRect {
@@ -194,18 +189,38 @@ int FinishTile(const TileTarget& tile, Viewport viewport) {
 
 int DrawTile(const Pass::State& state, int tile_index, float* depth, std::uint32_t* primitive) {
   const std::int32_t size = state.grid.tile_size_px;
-  const TileTarget tile{depth, primitive, size, tile_index % state.grid.tiles_x * size,
-                        tile_index / state.grid.tiles_x * size};
+  const PixelBox box = tile_box(state.viewport, state.grid, tile_index);
+  const TileTarget tile{depth,
+                        primitive,
+                        size,
+                        box.x0_px,
+                        box.y0_px,
+                        box.x0_px + box.width_px,
+                        box.y0_px + box.height_px};
   ClearTile(tile);
+  SmallQueue small;
+  const auto draw_small = [&] HWY_ATTR {
+    small.DrawAll([&](const SmallCorners* corners, const SmallDepths* depths, std::size_t count)
+                      HWY_ATTR { DrawSmall(corners, depths, count, tile); });
+  };
   for (std::size_t c = 0; c < state.chunk_count; ++c) {
     const Chunk& chunk = state.chunks[c];
     const std::uint32_t end = chunk.tile_begin[tile_index + 1];
     constexpr std::uint32_t kAhead = 4;  // triangles fetched before their turn
     for (std::uint32_t m = chunk.tile_begin[tile_index]; m < end; ++m) {
-      hwy::Prefetch(&chunk.triangles[chunk.members[std::min(m + kAhead, end - 1)]]);
-      DrawTriangle(chunk.triangles[chunk.members[m]], tile);
+      const Member member = chunk.members[m];
+      if (member.is_small()) {
+        small.Add(chunk, member.place(), member.may_cover_centres());
+        if (small.IsFull()) draw_small();
+        continue;
+      }
+      const Member ahead = chunk.members[std::min(m + kAhead, end - 1)];
+      if (!ahead.is_small()) hwy::Prefetch(&chunk.triangles[ahead.place()]);
+      draw_small();
+      DrawTriangle(chunk.triangles[member.place()], tile);
     }
   }
+  draw_small();
   return FinishTile(tile, state.viewport);
 }
 

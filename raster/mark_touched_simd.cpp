@@ -79,7 +79,7 @@ void MarkTouched(const Pass::State& state, int tile, std::uint32_t first_primiti
     if (!holds_any(chunk, first_primitive, end_primitive)) continue;
     const std::uint32_t end = chunk.tile_begin[tile + 1];
     for (std::uint32_t m = chunk.tile_begin[tile]; m < end; ++m) {
-      const SetupTriangle& t = chunk.triangles[chunk.members[m]];
+      const SetupTriangle t = chunk.set_up(chunk.members[m], state.viewport);
       if (t.primitive < first_primitive || t.primitive >= end_primitive) continue;
       MarkTriangle(t, extent, box, mask);
     }

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kVerticesPerJob = 8192;
 constexpr std::size_t kMinTrianglesPerChunk = 1024;
+constexpr std::size_t kMostChunks = 128;  // of a draw, about
 constexpr std::size_t kTilesPerJob = 4096;
 
 void check_draw(const Draw& draw) {
@@ -28,13 +29,14 @@ void check_draw(const Draw& draw) {
 }
 
 // Cuts the draws into chunks and finds the place of each draw's vertices. A chunk has a table of
-// all tiles, so with many tiles chunks get larger.
+// all tiles, and each tile looks into every chunk: with many tiles or triangles chunks get larger.
 void plan_chunks(std::span<const Draw> draws, Pass::State& state) {
-  const std::size_t chunk_size =
-      std::max(kMinTrianglesPerChunk, static_cast<std::size_t>(state.grid.count()) / 4);
   std::size_t vertex_count = 0, chunk_count = 0;
   for (std::size_t d = 0; d < draws.size(); ++d) {
     const std::size_t triangle_count = draws[d].indices.size() / 3;
+    const std::size_t chunk_size =
+        std::max({kMinTrianglesPerChunk, static_cast<std::size_t>(state.grid.count()) / 4,
+                  triangle_count / kMostChunks});
     for (std::size_t begin = 0; begin < triangle_count; begin += chunk_size) {
       if (chunk_count == state.chunks.size()) state.chunks.emplace_back();
       Chunk& chunk = state.chunks[chunk_count++];
@@ -167,24 +169,45 @@ void set_up_source(const SourceTriangle& source, const Draw& draw, const SetupRu
   }
 }
 
+// Those that are not small, one by one.
+void set_up_any_size(const Draw& draw, const Pass::State& state, std::size_t n, Chunk& chunk) {
+  SourceTriangle source;
+  for (int i = 0; i < 3; ++i) {
+    source.index[i] = draw.indices[3 * n + i];
+    source.window[i] = &state.vertices[chunk.first_vertex + source.index[i]];
+  }
+  source.primitive = draw.first_primitive + static_cast<std::uint32_t>(n);
+  std::size_t first = chunk.triangles.size();
+  set_up_source(source, draw, {draw.cull, state.viewport, state.samples}, chunk);
+  for (; first < chunk.triangles.size(); ++first)
+    list_tiles(state.grid, state.viewport, state.samples, static_cast<std::uint32_t>(first), chunk);
+}
+
+// Steps 3 and 4: sets up what is not small, and lists everything by tiles.
 void set_up_chunk(const Draw& draw, const Pass::State& state, Chunk& chunk) {
   chunk.triangles.clear();
+  chunk.entries.clear();
   chunk.statistics = {};
-  const WindowVertex* vertices = state.vertices.data() + chunk.first_vertex;
-  const SetupRules rules{draw.cull, state.viewport, state.samples};
-  for (std::size_t n = chunk.begin; n < chunk.end; ++n) {
-    SourceTriangle source;
-    for (int i = 0; i < 3; ++i) {
-      source.index[i] = draw.indices[3 * n + i];
-      SWELL_CHECK(source.index[i] < draw.p_clip.size(), "triangle={} index={} vertices={}", n,
-                  source.index[i], draw.p_clip.size());
-      source.window[i] = vertices + source.index[i];
+  const std::size_t count = chunk.end - chunk.begin, size = small_size(count);
+  chunk.place.resize(size);
+  chunk.corners.resize(size);
+  chunk.depths.resize(size);
+  find_small_triangles(std::span(state.vertices).subspan(chunk.first_vertex, draw.p_clip.size()),
+                       draw.indices.subspan(3 * chunk.begin, 3 * count),
+                       {draw.cull, state.viewport, state.samples}, state.grid,
+                       chunk.first_primitive, {chunk.place, chunk.corners, chunk.depths},
+                       chunk.statistics);
+  for (std::uint32_t n = 0; n < count; ++n) {
+    const std::int32_t place = chunk.place[n];
+    if (place >= 0) {
+      list_small(state.grid, place, n, chunk);
+    } else if (place == kOfAnySize) {
+      set_up_any_size(draw, state, chunk.begin + n, chunk);
     }
-    source.primitive = draw.first_primitive + static_cast<std::uint32_t>(n);
-    set_up_source(source, draw, rules, chunk);
   }
-  chunk.statistics.submitted = chunk.end - chunk.begin;
-  chunk.statistics.set_up = chunk.triangles.size();
+  sort_by_tile(state.grid, chunk);
+  chunk.statistics.submitted = count;
+  chunk.statistics.set_up += chunk.triangles.size();
 }
 
 void mark_used_tiles(Pass::State& state, Workers& workers) {
@@ -234,7 +257,6 @@ void prepare_pass(std::span<const Draw> draws, Viewport viewport, int tile_size_
   workers.for_each(state.chunk_count, [&](std::size_t c, int) {
     Chunk& chunk = state.chunks[c];
     set_up_chunk(draws[chunk.draw], state, chunk);
-    bin_triangles(state.grid, viewport, samples, chunk);
   });
   mark_used_tiles(state, workers);
 

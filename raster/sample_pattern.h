@@ -38,6 +38,11 @@ constexpr std::span<const SamplePosition> sample_positions(int samples) {
   return kCentrePosition;
 }
 
+// Positions lie on lines of their own in x and in y, this far apart; the first at half of it.
+constexpr std::int32_t sample_spacing_fx8(int samples) {
+  return samples == 0 ? 256 : 256 / samples;
+}
+
 // The square that holds all of a pixel's positions, the same in x and in y: [low, high].
 struct SampleExtent {
   std::int32_t low_fx8, high_fx8;
