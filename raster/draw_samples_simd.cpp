@@ -18,7 +18,8 @@
 #include <hwy/highway.h>
 
 #include "math/lanes-inl.h"
-#include "raster/small_packet-inl.h"
+#include "raster/sample_small-inl.h"
+#include "raster/sample_target-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace swell::raster {
@@ -35,25 +36,6 @@ static_assert(kLanes % kMaxSamples == 0 || kMaxSamples % kLanes == 0,
 // The packets that a pixel's samples take; 1 where a packet holds one or more pixels.
 template <int kSamples>
 constexpr std::uint32_t kParts = kSamples > kLanes ? kSamples / kLanes : 1;
-
-// The marked pixels of a tile and their samples. Lanes are the samples of one or more pixels that
-// follow each other in their row, or some of one pixel.
-struct SampleTarget {
-  const PixelMask& mask;
-  PixelBox box;
-  SampleExtent extent;
-  std::uint32_t samples;                                     // of all marked pixels, >= kLanes
-  std::uint64_t rows, columns;                               // that hold a marked pixel
-  std::array<std::uint32_t, PixelMask::kMaxRows> row_begin;  // marked pixels in the rows above
-  // Of one pixel's samples, repeated.
-  alignas(64) std::array<std::int32_t, std::max<std::uint32_t>(kLanes, kMaxSamples)> x_fx8, y_fx8;
-  const std::uint8_t* HWY_RESTRICT column;  // of each sample's pixel
-  float* HWY_RESTRICT depth;
-  std::uint32_t* HWY_RESTRICT primitive;
-
-  HWY_INLINE VI x_of(std::uint32_t part) const { return hn::Load(DI(), &x_fx8[part * kLanes]); }
-  HWY_INLINE VI y_of(std::uint32_t part) const { return hn::Load(DI(), &y_fx8[part * kLanes]); }
-};
 
 // False if no marked pixel lies in the box of the triangle's pixel centres, one wider all round.
 // Most triangles of a tile end here.
@@ -83,8 +65,8 @@ struct LaneEdge {
 };
 
 // E itself, where the triangle is small enough for 32 bits.
-HWY_INLINE LaneEdge SmallEdge(const Edge& edge, const SampleTarget& target, const PixelRect& rect,
-                              std::uint32_t part) {
+HWY_INLINE LaneEdge NarrowEdge(const Edge& edge, const SampleTarget& target, const PixelRect& rect,
+                               std::uint32_t part) {
   const VI offset = edge.a * target.x_of(part) + edge.b * target.y_of(part);
   const auto at_corner = static_cast<std::int32_t>(
       edge.at((target.box.x0_px + rect.x0) * kPixelFx8, (target.box.y0_px + rect.y0) * kPixelFx8));
@@ -95,8 +77,8 @@ HWY_INLINE LaneEdge SmallEdge(const Edge& edge, const SampleTarget& target, cons
 // so a sample is inside an edge if
 //   floor(E / 256) = e + a dx + b dy >= 0 with e = floor((E(corner) + a x_fx8 + b y_fx8) / 256),
 // which fits 32 bits with E(corner) / 16 taken apart into whole pixels and the rest.
-HWY_INLINE LaneEdge LargeEdge(const SampleEdge& edge, const SampleTarget& target,
-                              std::uint32_t part) {
+HWY_INLINE LaneEdge WideEdge(const SampleEdge& edge, const SampleTarget& target,
+                             std::uint32_t part) {
   const VI x_step = hn::ShiftRight<4>(target.x_of(part));
   const VI y_step = hn::ShiftRight<4>(target.y_of(part));
   const auto whole = static_cast<std::int32_t>(edge.at_corner >> kFractionBits);
@@ -109,12 +91,12 @@ HWY_INLINE LaneEdge LargeEdge(const SampleEdge& edge, const SampleTarget& target
 HWY_INLINE bool SetUpEdges(const SetupTriangle& t, const SampleTarget& target,
                            const PixelRect& rect, std::uint32_t part, LaneEdge (&out)[3]) {
   if (is_small(t)) {
-    for (int i = 0; i < 3; ++i) out[i] = SmallEdge(edge_of(t, i), target, rect, part);
+    for (int i = 0; i < 3; ++i) out[i] = NarrowEdge(edge_of(t, i), target, rect, part);
     return true;
   }
   std::array<SampleEdge, 3> edges;
   if (!set_up_sample_edges(t, target.extent, target.box, rect, edges)) return false;
-  for (int i = 0; i < 3; ++i) out[i] = LargeEdge(edges[i], target, part);
+  for (int i = 0; i < 3; ++i) out[i] = WideEdge(edges[i], target, part);
   return true;
 }
 
@@ -203,46 +185,13 @@ int FinishSamples(std::span<float> depth, std::span<const std::uint32_t> primiti
   return covered;
 }
 
-// Small triangles side by side: those around which no pixel is marked end here, the others are
-// drawn as those of any size.
-template <int kSamples>
-HWY_INLINE void SampleSmall(const SmallCorners* HWY_RESTRICT corners,
-                            const SmallDepths* HWY_RESTRICT depths, std::size_t count,
-                            const SampleTarget& target, Viewport viewport) {
-  const SmallVertices v = LoadVertices(corners);
-  const auto low = [](const VI(&c)[3]) HWY_ATTR { return Min(Min(c[0], c[1]), c[2]); };
-  const auto high = [](const VI(&c)[3]) HWY_ATTR { return Max(Max(c[0], c[1]), c[2]); };
-  // As of sample_rect_in_tile().
-  const auto first = [&](const VI(&c)[3], std::int32_t from_px) HWY_ATTR {
-    const std::int32_t up = kPixelFx8 - 1 - target.extent.high_fx8;
-    return Max(hn::ShiftRight<kFractionBits>(low(c) + up) - from_px, 0);
-  };
-  const auto last = [&](const VI(&c)[3], std::int32_t from_px, std::int32_t size_px) HWY_ATTR {
-    const VI end = high(c) - target.extent.low_fx8;
-    return Min(hn::ShiftRight<kFractionBits>(end) - from_px, size_px - 1);
-  };
-  const DI di;
-  alignas(64) std::array<std::int32_t, kLanes> x0, y0, x1, y1;
-  hn::Store(first(v.x, target.box.x0_px), di, x0.data());
-  hn::Store(first(v.y, target.box.y0_px), di, y0.data());
-  hn::Store(last(v.x, target.box.x0_px, target.box.width_px), di, x1.data());
-  hn::Store(last(v.y, target.box.y0_px, target.box.height_px), di, y1.data());
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint64_t columns = bits_between(x0[i], x1[i]);
-    std::uint64_t marked = 0;
-    for (std::int32_t y = y0[i]; y <= y1[i]; ++y) marked |= target.mask.row(y);
-    if ((marked & columns) != 0)
-      SampleTriangle<kSamples>(set_up_small(corners[i], depths[i], viewport), target);
-  }
-}
-
 template <int kSamples>
 void DrawTriangles(const Pass::State& state, int tile, const SampleTarget& target) {
+  SmallSampler<kSamples> sampler(target);
   SmallQueue small;
   const auto draw_small = [&] HWY_ATTR {
-    small.DrawAll(
-        [&](const SmallCorners* corners, const SmallDepths* depths, std::size_t count)
-            HWY_ATTR { SampleSmall<kSamples>(corners, depths, count, target, state.viewport); });
+    small.DrawAll([&](const SmallCorners* corners, const SmallDepths* depths, std::size_t count)
+                      HWY_ATTR { sampler.Add(corners, depths, count); });
   };
   for (std::size_t c = 0; c < state.chunk_count; ++c) {
     const Chunk& chunk = state.chunks[c];
@@ -260,10 +209,12 @@ void DrawTriangles(const Pass::State& state, int tile, const SampleTarget& targe
       const SetupTriangle& t = chunk.triangles[member.place()];
       if (!MayHoldMarked(t, target)) continue;
       draw_small();
+      sampler.Draw();
       SampleTriangle<kSamples>(t, target);
     }
   }
   draw_small();
+  sampler.Draw();
 }
 
 // Fills in where the marked pixels are; `column` has room for the samples of a whole tile.

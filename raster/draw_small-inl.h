@@ -31,55 +31,6 @@ struct TileTarget {
   std::int32_t size, x0, y0, x_end, y_end;
 };
 
-// The plane of depth, as of SetupTriangle.
-struct SmallPlanes {
-  V dz_dx, dz_dy, z_min, z_max;
-  VI x_ref, y_ref;
-  V primitive;
-};
-
-HWY_INLINE SmallPlanes SetUpPlanes(const SmallVertices& v, const SmallDepths* HWY_RESTRICT depths) {
-  const D d;
-  const DI di;
-  const hn::RepartitionToWide<D> dd;
-  const hn::Half<D> dh;
-  SmallPlanes p;
-  V z0, z1, z2;
-  hn::LoadInterleaved4(d, depths->depth, z0, z1, z2, p.primitive);
-  // In doubles, half of the lanes at a time.
-  const auto slopes = [&](auto half_of, auto& dz_dx, auto& dz_dy) HWY_ATTR {
-    const auto depth = [&](V z) HWY_ATTR { return hn::PromoteTo(dd, half_of(d, z)); };
-    const auto offset = [&](VI to, VI from)
-                            HWY_ATTR { return hn::PromoteTo(dd, half_of(di, to - from)); };
-    const auto first = depth(z0);
-    const auto dz1 = depth(z1) - first, dz2 = depth(z2) - first;
-    const auto dx1 = offset(v.x[1], v.x[0]), dy1 = offset(v.y[1], v.y[0]);
-    const auto dx2 = offset(v.x[2], v.x[0]), dy2 = offset(v.y[2], v.y[0]);
-    const auto scale = hn::Set(dd, double{kPixelFx8}) / (dx1 * dy2 - dx2 * dy1);
-    dz_dx = hn::DemoteTo(dh, (dz1 * dy2 - dz2 * dy1) * scale);
-    dz_dy = hn::DemoteTo(dh, (dz2 * dx1 - dz1 * dx2) * scale);
-  };
-  hn::Vec<decltype(dh)> x_low, y_low, x_high, y_high;
-  slopes([](auto, auto values) HWY_ATTR { return hn::LowerHalf(values); }, x_low, y_low);
-  slopes([](auto tag, auto values)
-             HWY_ATTR { return hn::UpperHalf(hn::Half<decltype(tag)>(), values); },
-         x_high, y_high);
-  p.dz_dx = hn::Combine(d, x_high, x_low);
-  p.dz_dy = hn::Combine(d, y_high, y_low);
-
-  const M second = z1 < z0;
-  const V nearer = IfThenElse(second, z1, z0);
-  const M third = z2 < nearer;
-  p.z_min = IfThenElse(third, z2, nearer);
-  p.z_max = Max(Max(z0, z1), z2);
-  const auto at_far = [&](const VI(&c)[3]) HWY_ATTR {
-    const VI of_two = IfThenElse(hn::RebindMask(di, second), c[1], c[0]);
-    return IfThenElse(hn::RebindMask(di, third), c[2], of_two);
-  };
-  p.x_ref = at_far(v.x), p.y_ref = at_far(v.y);
-  return p;
-}
-
 // Where each lane's triangle is drawn next: pixels of its box, row by row.
 struct SmallBoxes {
   VI x0, y0, width, count;  // [px]
@@ -107,13 +58,9 @@ struct PixelEdge {
 };
 
 HWY_INLINE PixelEdge SetUpEdge(const SmallVertices& v, int i, VI px_fx8, VI py_fx8, VI width) {
-  const DI di;
-  const int j = i == 2 ? 0 : i + 1;
-  const VI dx = v.x[j] - v.x[i], dy = v.y[j] - v.y[i];
-  const auto owns = (dy < 0) | ((dy == hn::Zero(di)) & (dx > 0));
-  const VI bias = IfThenElse(owns, hn::Zero(di), hn::Set(di, -1));
-  const VI a = hn::ShiftLeft<kFractionBits>(-dy), b = hn::ShiftLeft<kFractionBits>(dx);
-  return {dx * (py_fx8 - v.y[i]) - dy * (px_fx8 - v.x[i]) + bias, a, b - a * (width - 1)};
+  const SmallEdge edge = EdgeOf(v, i);
+  const VI a = hn::ShiftLeft<kFractionBits>(edge.a), b = hn::ShiftLeft<kFractionBits>(edge.b);
+  return {edge.At(px_fx8, py_fx8), a, b - a * (width - 1)};
 }
 
 // The pixels of the lanes' boxes, each lane's one after the other.
