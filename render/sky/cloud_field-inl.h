@@ -43,13 +43,16 @@ struct FrameCloudField {
   V phase0, phase1;      // towards the eye
 
   HWY_INLINE FrameCloudField(const VolumeClouds& c, V3 ray)
-      : clouds(c), direction(ray), drop(MulAdd(ray.x, ray.x, ray.y * ray.y) * c.drop_per_m2) {
-    const auto voxel_m = static_cast<float>(c.volume->voxel_m);
-    across_x = WayAlong(ray.x, voxel_m), across_y = WayAlong(ray.y, voxel_m);
-    const V cosine = Dot(ray, Constant(c.to_light));
-    phase0 = DropletPhase(cosine);
-    phase1 = DropletPhase(cosine, 0.5f) * kOctave1;
-  }
+      : FrameCloudField(c, ray, DropletPhase(Dot(ray, Constant(c.to_light))),
+                        DropletPhase(Dot(ray, Constant(c.to_light)), 0.5f) * kOctave1) {}
+  HWY_INLINE FrameCloudField(const VolumeClouds& c, V3 ray, V phase0_, V phase1_)
+      : clouds(c),
+        direction(ray),
+        drop(MulAdd(ray.x, ray.x, ray.y * ray.y) * c.drop_per_m2),
+        across_x(WayAlong(ray.x, static_cast<float>(c.volume->voxel_m))),
+        across_y(WayAlong(ray.y, static_cast<float>(c.volume->voxel_m))),
+        phase0(phase0_),
+        phase1(phase1_) {}
 
   HWY_INLINE V Height(V t) const { return MulAdd(MulAdd(drop, t, direction.z), t, clouds.eye_z); }
 
@@ -217,20 +220,27 @@ HWY_INLINE CloudWay WayThroughClouds(const VolumeClouds& clouds, const FrameClou
   return way;
 }
 
-// What rays of length 1 see of the clouds up to a distance. What rays around them met first they
-// met at `nearest`: forms that fill a step are larger than what lies between rays, so that to look
-// from a group of steps before on is enough.
-HWY_INLINE CloudLightSeen SeeClouds(const VolumeClouds& clouds, V3 direction, V nearest,
-                                    V farthest) {
-  const FrameCloudField field(clouds, direction);
+// Where rays of length 1 are followed up to a distance. What rays around them met first they met at
+// `nearest`: forms that fill a step are larger than what lies between rays, so that to look from a
+// group of steps before on is enough.
+struct CloudRayEnds {
+  V begin, end;
+  hn::Mask<D> among_clouds;  // else there is nothing
+};
+HWY_INLINE CloudRayEnds EndsAmongClouds(const VolumeClouds& clouds, const FrameCloudField& field,
+                                        V nearest, V farthest) {
   const CloudWay way = WayThroughClouds(clouds, field, farthest);
   const StepGroup met = GroupAt(nearest, clouds.steps);
   const V before = Max(NegMulAdd(met.length, 0.5f, met.first), 0.0f);
   const V begin = Max(way.begin, GroupAt(before, clouds.steps).first);
-  CloudLightSeen seen =
-      FollowRays(field, begin, way.end, clouds.steps, clouds.volume->extinction_per_m);
-  seen.clear = IfThenElseZero(way.begin < way.end, seen.clear);
-  return seen;
+  return {begin, way.end, way.begin < way.end};
+}
+
+// What rays of length 1 see of the clouds up to a distance.
+HWY_INLINE CloudLightSeen SeeClouds(const VolumeClouds& clouds, V3 direction, V farthest) {
+  const FrameCloudField field(clouds, direction);
+  const CloudRayEnds ends = EndsAmongClouds(clouds, field, hn::Zero(D()), farthest);
+  return FollowRays(field, ends.begin, ends.end, clouds.steps, clouds.volume->extinction_per_m);
 }
 
 // The radiance of what they see.

@@ -116,48 +116,65 @@ HWY_INLINE void TakeSteps(const Field& field, const StepGroup& group, const Body
   rays.known = group.next, rays.sun = sun_next, rays.sky = sky_next;
 }
 
-// Follows rays from `begin` to `end`, in steps that lie on a lattice of distances from the eye, the
-// first and the last cut. Midpoints are sampled. What a step scatters is its source times what it
-// hides, so that light is neither made nor lost whatever the step. A step hides at most 1 - e^-0.5:
-// where far steps are longer the extinction is less, as of a cloud seen blurred. Groups of steps
-// are passed over or taken, and the light between their ends is interpolated.
-//
+// The next group of each ray, and whether it may hold a cloud.
+struct GroupAhead {
+  StepGroup group;
+  V empty_until;
+  BodyLine line;
+  hn::Mask<D> taken;
+};
+
 // `field` says Body(t), Form(t, body), of which MayHold(form) tells whether there may be something,
 // Density(t, form) in [0, 1], Light(t, sun, sky) and EmptyUntil(t), a distance up to which there is
 // surely nothing, or less than t.
 template <class Field>
-HWY_INLINE CloudLightSeen FollowRays(const Field& field, V begin, V end, const CloudSteps& steps,
-                                     float extinction_per_m) {
+HWY_INLINE GroupAhead LookAhead(const Field& field, V t, hn::Mask<D> active,
+                                const CloudSteps& steps) {
   const D d;
-  const V zero = hn::Zero(d), one = Constant(1.0f);
-  RaysUnderWay rays = {begin,           end,  one,  zero,
-                       Constant(-1.0f), zero, zero, {zero, zero, zero, end, begin, zero, end}};
-  CloudLightSeen& seen = rays.seen;
-  for (;;) {
-    const auto active = (rays.t < end) & (rays.passes > kLeastPassing);
-    if (hn::AllFalse(d, active)) break;
-    const StepGroup group = GroupAt(rays.t, steps);
-    const V empty_until = field.EmptyUntil(rays.t);
-    const auto looked_at = active & (empty_until < group.next);
-    if (!hn::AllFalse(d, looked_at)) {
-      const V third = group.length * (1.0f / 3.0f);
-      const V t1 = MulAdd(group.length, 0.5f, group.first);
-      const V t0 = t1 - third, t2 = t1 + third;
-      const V body0 = field.Body(t0), body1 = field.Body(t1), body2 = field.Body(t2);
-      const V highest =
-          Max(Max(field.Form(t0, body0), field.Form(t1, body1)), field.Form(t2, body2));
-      const auto taken = looked_at & field.MayHold(highest);
-      if (!hn::AllFalse(d, taken)) {
-        seen.clear = IfThenElse(taken, Min(seen.clear, group.first), seen.clear);
-        const V most = steps.most_depth / Max(group.first, steps.far_m);
-        TakeSteps(field, group, {t1, body0, body1, body2, highest}, Min(most, extinction_per_m),
-                  taken, rays);
-      }
-    }
-    const V length_there = StepAt(empty_until, steps) * float{CloudSteps::kGroup};
-    const V go_on = Max(group.next, WholeSteps(empty_until, length_there));
-    rays.t = IfThenElse(active, Min(go_on, end), rays.t);
-  }
+  const V zero = hn::Zero(d);
+  const StepGroup group = GroupAt(t, steps);
+  const V empty_until = field.EmptyUntil(t);
+  const auto looked_at = active & (empty_until < group.next);
+  if (hn::AllFalse(d, looked_at))
+    return {group, empty_until, {zero, zero, zero, zero, zero}, looked_at};
+  const V third = group.length * (1.0f / 3.0f);
+  const V t1 = MulAdd(group.length, 0.5f, group.first);
+  const V t0 = t1 - third, t2 = t1 + third;
+  const V body0 = field.Body(t0), body1 = field.Body(t1), body2 = field.Body(t2);
+  const V highest = Max(Max(field.Form(t0, body0), field.Form(t1, body1)), field.Form(t2, body2));
+  return {
+      group, empty_until, {t1, body0, body1, body2, highest}, looked_at & field.MayHold(highest)};
+}
+
+// Takes what lies ahead of the rays where it is `taken`.
+template <class Field>
+HWY_INLINE void TakeAhead(const Field& field, const GroupAhead& ahead, const CloudSteps& steps,
+                          float extinction_per_m, RaysUnderWay& rays) {
+  const V first = ahead.group.first;
+  rays.seen.clear = IfThenElse(ahead.taken, Min(rays.seen.clear, first), rays.seen.clear);
+  const V most = steps.most_depth / Max(first, steps.far_m);
+  TakeSteps(field, ahead.group, ahead.line, Min(most, extinction_per_m), ahead.taken, rays);
+}
+
+// Where rays go on behind it.
+HWY_INLINE V GoOn(const StepGroup& group, V empty_until, V end, const CloudSteps& steps) {
+  const V length_there = StepAt(empty_until, steps) * float{CloudSteps::kGroup};
+  return Min(Max(group.next, WholeSteps(empty_until, length_there)), end);
+}
+
+HWY_INLINE RaysUnderWay BeginRays(V begin, V end) {
+  const V zero = hn::Zero(D()), one = Constant(1.0f);
+  return {begin,           end,  one,  zero,
+          Constant(-1.0f), zero, zero, {zero, zero, zero, end, begin, zero, end}};
+}
+HWY_INLINE hn::Mask<D> AreActive(const RaysUnderWay& rays) {
+  return (rays.t < rays.end) & (rays.passes > kLeastPassing);
+}
+
+// What rays have seen that are not active any more.
+HWY_INLINE CloudLightSeen EndRays(const RaysUnderWay& rays) {
+  const V zero = hn::Zero(D()), one = Constant(1.0f);
+  CloudLightSeen seen = rays.seen;
   // What is almost opaque is opaque.
   const V found = one - rays.passes;
   constexpr float kSlope = kLittlePassing / (kLittlePassing - kLeastPassing);
@@ -170,6 +187,26 @@ HWY_INLINE CloudLightSeen FollowRays(const Field& field, V begin, V end, const C
   seen.distance = rays.weighted / Max(found, 1e-20f);
   seen.back = Max(seen.back, seen.front + one);
   return seen;
+}
+
+// Follows rays from `begin` to `end`, in steps that lie on a lattice of distances from the eye, the
+// first and the last cut. Midpoints are sampled. What a step scatters is its source times what it
+// hides, so that light is neither made nor lost whatever the step. A step hides at most 1 - e^-0.5:
+// where far steps are longer the extinction is less, as of a cloud seen blurred. Groups of steps
+// are passed over or taken, and the light between their ends is interpolated.
+template <class Field>
+HWY_INLINE CloudLightSeen FollowRays(const Field& field, V begin, V end, const CloudSteps& steps,
+                                     float extinction_per_m) {
+  const D d;
+  RaysUnderWay rays = BeginRays(begin, end);
+  for (;;) {
+    const auto active = AreActive(rays);
+    if (hn::AllFalse(d, active)) return EndRays(rays);
+    const GroupAhead ahead = LookAhead(field, rays.t, active, steps);
+    if (!hn::AllFalse(d, ahead.taken)) TakeAhead(field, ahead, steps, extinction_per_m, rays);
+    const V go_on = GoOn(ahead.group, ahead.empty_until, rays.end, steps);
+    rays.t = IfThenElse(active, go_on, rays.t);
+  }
 }
 
 }  // namespace HWY_NAMESPACE

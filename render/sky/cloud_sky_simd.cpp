@@ -24,7 +24,7 @@ void CloudSkyRow(const VolumeClouds& clouds, const CloudAir& air, int y, CloudSk
     const V z = Max((one - r2) / (one + r2), 0.004f);
     const V across = Sqrt(NegMulAdd(z, z, one) / Max(r2, 1e-12f));
     const CloudLightSeen seen =
-        SeeClouds(clouds, {u * across, v * across, z}, hn::Zero(d), Constant(kFarthestCloud_m));
+        SeeClouds(clouds, {u * across, v * across, z}, Constant(kFarthestCloud_m));
     const V height = seen.distance * z;
     const V density = air.inv_haze_m / MulAdd(height, air.inv_haze_height_m, one);
     const V clear = Exp(d, -(seen.distance * density));

@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 //
 #include "render/sky/cloud_field-inl.h"
+#include "render/sky/cloud_queue-inl.h"
 #include "render/sky/sky_maps.h"
 #include "render/tile/air-inl.h"
 
@@ -33,17 +34,12 @@ HWY_INLINE Packet CloudPacket(const Shading& s, V3 direction, V distance) {
   return packet;
 }
 
-// What nodes show, in the channels of CloudPicture, and how far there is nothing.
-struct NodesSeen {
-  std::array<V, CloudPicture::kChannels> channels;
-  V clear;
-};
+// What nodes show, in the channels of CloudPicture.
+using NodeChannels = std::array<V, CloudPicture::kChannels>;
 
-NodesSeen SeeNodes(const Shading& s, const VolumeClouds& clouds, V x_px, V y_px, V nearest) {
+HWY_INLINE NodeChannels ChannelsOf(const Shading& s, const VolumeClouds& clouds, V3 direction,
+                                   const CloudLightSeen& seen) {
   const D d;
-  const V3 ray = RayAt(s.rays, x_px, y_px);
-  const V3 direction = ray * InverseSqrt(Dot(ray, ray));
-  const CloudLightSeen seen = SeeClouds(clouds, direction, nearest, Constant(kFarthestCloud_m));
   V3 light = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   if (!hn::AllFalse(d, seen.opacity > 0.0f)) {
     // The air before what is hidden shows as much of the cloud as is seen.
@@ -51,9 +47,8 @@ NodesSeen SeeNodes(const Shading& s, const VolumeClouds& clouds, V x_px, V y_px,
     const V3 own = RadianceOf(clouds, seen) * inverse;
     light = ThroughAir(s, CloudPacket(s, direction, seen.distance), own) * seen.opacity;
   }
-  return {{light.x, light.y, light.z, seen.opacity, seen.opacity * seen.front,
-           seen.opacity * seen.back},
-          seen.clear};
+  return {
+      light.x, light.y, light.z, seen.opacity, seen.opacity * seen.front, seen.opacity * seen.back};
 }
 
 // Nodes of some rows to follow rays of, column by column, so that those of a packet lie together.
@@ -69,30 +64,57 @@ struct NodeList {
   void add(int i, int j, float nearest_m) { at[count++] = {i, j, nearest_m}; }
 };
 
+// Puts what nodes of the mask show where they are, by their numbers in the list.
+HWY_INLINE void PutNodes(const NodeList& list, V numbers, hn::Mask<D> mask,
+                         const NodeChannels& channels, V clear, CloudPicture& picture) {
+  const D d;
+  HWY_ALIGN std::array<float, kLanes> number, value;
+  const std::size_t count = hn::CountTrue(d, mask);
+  const auto chosen = ChosenFirst(mask);
+  hn::Store(hn::TableLookupLanes(numbers, chosen), d, number.data());
+  const auto put = [&](V values, std::vector<float>& nodes) HWY_ATTR {
+    hn::Store(hn::TableLookupLanes(values, chosen), d, value.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      const NodeList::Node node = list.at[static_cast<std::size_t>(number[i])];
+      nodes[picture.index(node.i, node.j)] = value[i];
+    }
+  };
+  for (std::size_t c = 0; c < channels.size(); ++c) put(channels[c], picture.nodes[c]);
+  put(clear, picture.clear);
+}
+
 void DrawNodes(const Shading& s, const VolumeClouds& clouds, const NodeList& list,
                CloudPicture& picture) {
   const D d;
   const auto step = static_cast<float>(picture.step());
-  constexpr std::size_t kWidth = hn::MaxLanes(D());
-  for (std::size_t n = 0; n < list.count; n += kWidth) {
-    HWY_ALIGN std::array<float, kWidth> x_px, y_px, nearest_m;
-    const std::size_t used = std::min(list.count - n, kWidth);
-    for (std::size_t i = 0; i < kWidth; ++i) {
+  const auto end = [&](const LookingRays& rays, const CloudLightSeen& seen, hn::Mask<D> mask)
+                       HWY_ATTR {
+                         const NodeChannels channels = ChannelsOf(s, clouds, rays.direction, seen);
+                         PutNodes(list, rays.number, mask, channels, seen.clear, picture);
+                       };
+  CloudRayQueue queue(clouds, end);
+  const V none = hn::Zero(d);
+  for (std::size_t n = 0; n < list.count; n += kLanes) {
+    HWY_ALIGN std::array<float, kLanes> x_px, y_px, nearest_m;
+    const std::size_t used = std::min(list.count - n, kLanes);
+    for (std::size_t i = 0; i < kLanes; ++i) {
       const NodeList::Node node = list.at[n + std::min(i, used - 1)];
       x_px[i] = step * static_cast<float>(node.i), y_px[i] = step * static_cast<float>(node.j);
       nearest_m[i] = node.nearest_m;
     }
-    const NodesSeen seen = SeeNodes(s, clouds, hn::Load(d, x_px.data()), hn::Load(d, y_px.data()),
-                                    hn::Load(d, nearest_m.data()));
-    const auto put = [&](V values, std::vector<float>& nodes) HWY_ATTR {
-      HWY_ALIGN std::array<float, kWidth> lanes;
-      hn::Store(values, d, lanes.data());
-      for (std::size_t i = 0; i < used; ++i)
-        nodes[picture.index(list.at[n + i].i, list.at[n + i].j)] = lanes[i];
-    };
-    for (std::size_t c = 0; c < seen.channels.size(); ++c) put(seen.channels[c], picture.nodes[c]);
-    put(seen.clear, picture.clear);
+    const V3 ray = RayAt(s.rays, hn::Load(d, x_px.data()), hn::Load(d, y_px.data()));
+    const FrameCloudField field(clouds, ray * InverseSqrt(Dot(ray, ray)));
+    const CloudRayEnds ends =
+        EndsAmongClouds(clouds, field, hn::Load(d, nearest_m.data()), Constant(kFarthestCloud_m));
+    const V number = hn::ConvertTo(d, CountFrom(static_cast<int>(n)));
+    const auto is_used = hn::FirstN(d, used), has_way = is_used & (ends.begin < ends.end);
+    queue.Add(field, number, ends.begin, ends.end, has_way);
+    const auto rest = hn::AndNot(has_way, is_used);
+    if (!hn::AllFalse(d, rest))
+      PutNodes(list, number, rest, {none, none, none, none, none, none},
+               IfThenElseZero(ends.among_clouds, ends.end), picture);
   }
+  queue.Finish();
 }
 
 // How far there is nothing around (i, j), by the nodes of multiples of `spacing`.

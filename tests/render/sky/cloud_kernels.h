@@ -25,6 +25,10 @@ void follow_even_clouds(std::span<const EvenCloud> clouds, float step_m, float f
 void see_clouds(const VolumeClouds& clouds, std::span<const glm::vec3> directions, float farthest_m,
                 std::span<RaySeen> seen);
 
+// The same by CloudRayQueue. Leaves alone what rays see that do not come among clouds.
+void see_clouds_queued(const VolumeClouds& clouds, std::span<const glm::vec3> directions,
+                       float farthest_m, std::span<RaySeen> seen);
+
 // LayClouds() of one node over black at distances.
 void lay_even_cloud(glm::vec3 light, float opacity, float front_m, float back_m,
                     std::span<const float> distance_m, std::span<glm::vec3> laid);

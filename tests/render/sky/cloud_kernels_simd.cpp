@@ -10,6 +10,7 @@
 #include <array>
 
 #include "render/sky/cloud_field-inl.h"
+#include "render/sky/cloud_queue-inl.h"
 #include "render/sky/sky_maps.h"
 #include "render/tile/cloud_picture-inl.h"
 
@@ -70,9 +71,36 @@ void See(const VolumeClouds& clouds, std::span<const glm::vec3> directions, floa
     const auto axis = [&](int c) {
       return LoadSome(n, i, [&](std::size_t k) { return directions[k][c]; });
     };
-    StoreSeen(SeeClouds(clouds, {axis(0), axis(1), axis(2)}, hn::Zero(D()), Constant(farthest_m)),
-              i, seen);
+    StoreSeen(SeeClouds(clouds, {axis(0), axis(1), axis(2)}, Constant(farthest_m)), i, seen);
   }
+}
+
+void SeeQueued(const VolumeClouds& clouds, std::span<const glm::vec3> directions, float farthest_m,
+               std::span<RaySeen> seen) {
+  const D d;
+  const std::size_t n = directions.size();
+  const auto end = [&](const LookingRays& rays, const CloudLightSeen& light, hn::Mask<D> mask)
+                       HWY_ATTR {
+                         std::array<RaySeen, kLanes> packet;
+                         StoreSeen(light, 0, packet);
+                         HWY_ALIGN std::array<float, kLanes> number, used;
+                         hn::Store(rays.number, d, number.data());
+                         hn::Store(IfThenElseZero(mask, Constant(1.0f)), d, used.data());
+                         for (std::size_t i = 0; i < kLanes; ++i)
+                           if (used[i] != 0.0f)
+                             seen[static_cast<std::size_t>(number[i])] = packet[i];
+                       };
+  CloudRayQueue queue(clouds, end);
+  for (std::size_t i = 0; i < n; i += kLanes) {
+    const auto axis = [&](int c) {
+      return LoadSome(n, i, [&](std::size_t k) { return directions[k][c]; });
+    };
+    const FrameCloudField field(clouds, {axis(0), axis(1), axis(2)});
+    const CloudRayEnds ends = EndsAmongClouds(clouds, field, hn::Zero(d), Constant(farthest_m));
+    queue.Add(field, hn::ConvertTo(d, CountFrom(static_cast<int>(i))), ends.begin, ends.end,
+              hn::FirstN(d, n - i) & (ends.begin < ends.end));
+  }
+  queue.Finish();
 }
 
 void LayEven(const RaySeen& node, glm::vec3 light, std::span<const float> distance_m,
@@ -105,6 +133,7 @@ namespace swell::render {
 
 HWY_EXPORT(FollowEven);
 HWY_EXPORT(See);
+HWY_EXPORT(SeeQueued);
 HWY_EXPORT(LayEven);
 HWY_EXPORT(Phase);
 
@@ -116,6 +145,11 @@ void follow_even_clouds(std::span<const EvenCloud> clouds, float step_m, float f
 void see_clouds(const VolumeClouds& clouds, std::span<const glm::vec3> directions, float farthest_m,
                 std::span<RaySeen> seen) {
   HWY_DYNAMIC_DISPATCH(See)(clouds, directions, farthest_m, seen);
+}
+
+void see_clouds_queued(const VolumeClouds& clouds, std::span<const glm::vec3> directions,
+                       float farthest_m, std::span<RaySeen> seen) {
+  HWY_DYNAMIC_DISPATCH(SeeQueued)(clouds, directions, farthest_m, seen);
 }
 
 void lay_even_cloud(glm::vec3 light, float opacity, float front_m, float back_m,

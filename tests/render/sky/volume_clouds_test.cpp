@@ -93,6 +93,32 @@ TEST(VolumeClouds, SkipWhatIsEmptyAndNothingElse) {
   }
 }
 
+// Rays that are followed with all lanes at work, in any company.
+TEST(VolumeClouds, AreSeenTheSameByRaysInAQueue) {
+  const World world = world_of(cloudy_scene());
+  for (const glm::dvec3& eye : {glm::dvec3(0, 0, 2), {500, 900, 1500}, {0, 0, 4000}}) {
+    const VolumeClouds clouds = clouds_at(world, eye);
+    std::vector<glm::vec3> directions = sky_directions(61);
+    if (eye.z > 3000.0)
+      for (glm::vec3& d : directions) d.z = -d.z;
+    const std::vector<RaySeen> alone = see(clouds, directions);
+    std::vector<RaySeen> queued = alone;
+    for (RaySeen& seen : queued)
+      if (seen.opacity > 0.0f) seen = {};
+    see_clouds_queued(clouds, directions, kFarthestCloud_m, queued);
+    EXPECT_TRUE(queued == alone) << eye.z;
+    // In other company.
+    std::ranges::reverse(directions);
+    directions.pop_back();
+    std::vector<RaySeen> turned(directions.size());
+    see_clouds_queued(clouds, directions, kFarthestCloud_m, turned);
+    for (std::size_t i = 0; i < turned.size(); ++i)
+      if (const RaySeen& seen = alone[alone.size() - 1 - i]; seen.opacity > 0.0f) {
+        EXPECT_TRUE(turned[i] == seen) << i;
+      }
+  }
+}
+
 // CLD-07
 TEST(VolumeClouds, HideAsMuchFromEitherSide) {
   scene::Scene scene = placed_scene({0.0, 0.0});
