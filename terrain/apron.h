@@ -25,7 +25,4 @@ Apron make_apron(const HeightGrid& map);
 // The map with its apron: a square twice as wide about the same middle, or the map without one.
 Grid square_with_apron(const HeightGrid& map);
 
-// height_at() where p_world is not on the map, whose apron is wider than 0: finite for any p_world.
-double height_on_apron(const HeightGrid& map, glm::dvec2 p_world);
-
 }  // namespace swell::terrain

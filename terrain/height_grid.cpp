@@ -1,9 +1,10 @@
 #include "terrain/height_grid.h"
 
 #include <algorithm>
+#include <array>
 
 #include "math/check.h"
-#include "terrain/apron.h"
+#include "terrain/sample_heights.h"
 
 namespace swell::terrain {
 namespace {
@@ -42,47 +43,14 @@ double between(const Corners& c) {
   return south + c.fy * (north - south);
 }
 
-// height_at() of points that a grid of two samples a side or more holds, to the bit.
-class HeightsInside {
- public:
-  explicit HeightsInside(const HeightGrid& heights)
-      : samples_(heights.height_m.data()),
-        row_(static_cast<std::size_t>(heights.grid.samples_x)),
-        spacing_m_(heights.grid.spacing_m),
-        low_(heights.grid.min_world),
-        high_(low_ + heights.grid.extent_m()),
-        last_cell_(heights.grid.samples_x - 2, heights.grid.samples_y - 2) {}
-
-  bool holds(glm::dvec2 p) const {
-    return p.x >= low_.x && p.y >= low_.y && p.x <= high_.x && p.y <= high_.y;
-  }
-  double at(glm::dvec2 p) const {
-    const double u = place(p.x, low_.x, last_cell_.x), v = place(p.y, low_.y, last_cell_.y);
-    const int i = std::min(static_cast<int>(u), last_cell_.x);
-    const int j = std::min(static_cast<int>(v), last_cell_.y);
-    const float* const south =
-        samples_ + static_cast<std::size_t>(j) * row_ + static_cast<std::size_t>(i);
-    const float* const north = south + row_;
-    return between({south[0], south[1], north[0], north[1], u - i, v - j});
-  }
-
- private:
-  double place(double x, double low, int last_cell) const {
-    return std::min((x - low) / spacing_m_, static_cast<double>(last_cell + 1));
-  }
-
-  const float* samples_;
-  std::size_t row_;
-  double spacing_m_;
-  glm::dvec2 low_, high_;
-  glm::ivec2 last_cell_;
-};
-
 }  // namespace
 
 double height_at(const HeightGrid& heights, glm::dvec2 p_world) {
-  if (heights.apron.width_m > 0.0 && !heights.grid.holds(p_world))
-    return height_on_apron(heights, p_world);
+  if (heights.apron.width_m > 0.0 && !heights.grid.holds(p_world)) {
+    double height_m = 0.0;
+    sample_doubles(heights, std::span(&p_world, 1), std::span(&height_m, 1));
+    return height_m;
+  }
   return between(find_corners(heights, p_world));
 }
 
@@ -101,12 +69,17 @@ void sample_heights(const HeightGrid& heights, std::span<const glm::dvec2> p_wor
               heights.grid.samples_x, heights.grid.samples_y);
   SWELL_CHECK(heights.height_m.size() == heights.grid.size(), "{} samples, {} heights",
               heights.grid.size(), heights.height_m.size());
-  const HeightsInside inside(heights);
   const bool has_cells = heights.grid.samples_x >= 2 && heights.grid.samples_y >= 2;
-  for (std::size_t k = 0; k < p_world.size(); ++k)
-    height_m[k] =
-        static_cast<float>(has_cells && inside.holds(p_world[k]) ? inside.at(p_world[k])
-                                                                 : height_at(heights, p_world[k]));
+  std::array<double, 256> some;
+  for (std::size_t n = 0; n < p_world.size(); n += some.size()) {
+    const std::size_t count = std::min(some.size(), p_world.size() - n);
+    if (has_cells)
+      sample_doubles(heights, p_world.subspan(n, count), std::span(some).first(count));
+    else
+      std::ranges::transform(p_world.subspan(n, count), some.begin(),
+                             [&](glm::dvec2 p) { return height_at(heights, p); });
+    std::copy_n(some.begin(), count, height_m.begin() + static_cast<std::ptrdiff_t>(n));
+  }
 }
 
 HeightGrid resample(const HeightGrid& heights, const Grid& grid) {

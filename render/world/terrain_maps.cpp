@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "math/for_each_row.h"
@@ -176,9 +177,9 @@ std::vector<float> sample_square(const terrain::HeightGrid& terrain, const terra
                                  Workers& workers) {
   auto height_m = make_large<float>(grid.size());
   for_each_row(grid.samples_y, workers, [&](int j) {
-    for (int i = 0; i < grid.samples_x; ++i)
-      height_m[grid.index(i, j)] =
-          static_cast<float>(terrain::height_at(terrain, grid.point(i, j)));
+    std::vector<glm::dvec2> p(static_cast<std::size_t>(grid.samples_x));
+    for (int i = 0; i < grid.samples_x; ++i) p[static_cast<std::size_t>(i)] = grid.point(i, j);
+    terrain::sample_heights(terrain, p, std::span(height_m).subspan(grid.index(0, j), p.size()));
   });
   return height_m;
 }

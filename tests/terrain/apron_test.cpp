@@ -156,5 +156,24 @@ TEST(Apron, LeavesTheMapAsItIs) {
   EXPECT_EQ(height_at(map, map.grid.point(64, 64)), static_cast<double>(map.height_m.back()));
 }
 
+// Many points are looked at side by side, on the map, around it, far away and nowhere.
+TEST(Apron, HasTheSameHeightsForOnePointAndForMany) {
+  const HeightGrid map = hills();
+  const double side_m = map.grid.size_m();
+  std::vector<glm::dvec2> points;
+  for (std::uint64_t n = 0; n < 5000; ++n)
+    points.push_back(
+        map.grid.min_world +
+        side_m * (3.0 * glm::dvec2(random_uniform(9, 2 * n), random_uniform(9, 2 * n + 1)) - 1.0));
+  for (const double x : {0.0, 1.0, -0.5, 1.5, 1e9})
+    for (const double y : {0.0, 1.0, 0.25, -1e9})
+      points.push_back(map.grid.min_world + side_m * glm::dvec2(x, y));
+  points.push_back({std::numeric_limits<double>::quiet_NaN(), 0.0});
+  std::vector<float> heights(points.size());
+  sample_heights(map, points, heights);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    EXPECT_EQ(heights[i], static_cast<float>(height_at(map, points[i]))) << i;
+}
+
 }  // namespace
 }  // namespace swell::terrain
