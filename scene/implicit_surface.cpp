@@ -56,6 +56,25 @@ void for_cells(const ImplicitPart& part, const Cell& cell, int side, const Visit
       part, cell, side, [](const Cell&) { return true; }, visit);
 }
 
+// The same cells where wanted(cell) holds for a cell if it does for a part of it: whole blocks of
+// cells are left out.
+template <class Wanted, class Visit>
+void for_cells_of_blocks(const ImplicitPart& part, const Cell& cell, int side, const Wanted& wanted,
+                         const Visit& visit) {
+  const glm::dvec3 half = cell.half / static_cast<double>(side);
+  const auto look = [&](const auto& self, glm::ivec3 first, int count) -> void {
+    const glm::dvec3 at(2 * first + count - side);
+    const Cell block{cell.middle + at * half, static_cast<double>(count) * half};
+    if (!wanted(block) || !may_hold(part, block.middle, block.spans())) return;
+    if (count == 1) return visit(block);
+    const int step = count % 2 == 0 ? count / 2 : count / 3;
+    for (int k = 0; k < count; k += step)
+      for (int j = 0; j < count; j += step)
+        for (int i = 0; i < count; i += step) self(self, first + glm::ivec3(i, j, k), step);
+  };
+  look(look, glm::ivec3(0), side);
+}
+
 // Depth first, so that the search ends soon where there is an inside.
 bool find_inside(ImplicitPart& part, const Cell& cell, int depth, int& cells_left) {
   if (value(part, cell.middle) >= 0.0) {
@@ -76,9 +95,9 @@ void take_middle(ImplicitPart& part, const Cell& box) {
   constexpr int kSide = 12;
   glm::dvec3 sum(0.0);
   double count = 0.0;
-  for_cells(part, box, kSide, [&](const Cell& inner) {
-    if (value(part, inner.middle) >= 0.0) sum += inner.middle, count += 1.0;
-  });
+  for_cells(
+      part, box, kSide, [&](const Cell& inner) { return value(part, inner.middle) >= 0.0; },
+      [&](const Cell& inner) { sum += inner.middle, count += 1.0; });
   part.is_hollow = count > 0.0 && value(part, sum / count) < 0.0;
   if (count > 0.0 && !part.is_hollow) part.inside = sum / count;
 }
@@ -147,36 +166,6 @@ Cell first_box(const ImplicitPart& part) {
   if (!(low.x < high.x && low.y < high.y && low.z < high.z))
     throw std::runtime_error("a part without an inside");
   return {0.5 * (low + high), 0.5 * (high - low)};
-}
-
-// Shrinks the box around what cells of it may hold of the part, until it shrinks no more.
-void find_box(ImplicitPart& part) {
-  constexpr int kSide = 12, kMostRounds = 24;
-  constexpr double kEnough = 0.97;
-  Cell box = first_box(part);
-  for (int round = 0; round < kMostRounds; ++round) {
-    glm::dvec3 low(kFarthest_m), high(-kFarthest_m);
-    const auto makes_larger = [&](const Cell& inner) {
-      return glm::any(glm::lessThan(inner.middle - inner.half, low)) ||
-             glm::any(glm::greaterThan(inner.middle + inner.half, high));
-    };
-    for_cells(part, box, kSide, makes_larger, [&](const Cell& inner) {
-      low = glm::min(low, inner.middle - inner.half);
-      high = glm::max(high, inner.middle + inner.half);
-    });
-    if (!(low.x < high.x)) throw std::runtime_error("a part without an inside");
-    const Cell next{0.5 * (low + high), 0.5 * (high - low)};
-    const bool done = glm::all(glm::greaterThan(next.half, kEnough * box.half));
-    box = next;
-    if (done) break;
-  }
-  const glm::dvec3 reach = glm::abs(box.middle) + box.half;
-  if (std::max({reach.x, reach.y, reach.z}) > 0.999 * kFarthest_m)
-    throw std::runtime_error(fmt::format("a part that goes on beyond {} m", kFarthest_m));
-  int cells_left = 200000;
-  if (!find_inside(part, box, 9, cells_left)) throw std::runtime_error("a part without an inside");
-  part.low = box.middle - box.half, part.high = box.middle + box.half;
-  take_middle(part, box);
 }
 
 // What a turning part sweeps.
@@ -267,12 +256,42 @@ bool may_hold(const ImplicitPart& part, glm::dvec3 middle, const Spans& spans) {
          !(part.table && most_of(*part.table, middle, spans) < 0.0);
 }
 
+// Shrinks the box around what cells of it may hold of the part, until it shrinks no more.
+void find_box(ImplicitPart& part) {
+  constexpr int kSide = 12, kMostRounds = 24;
+  constexpr double kEnough = 0.97;
+  Cell box = first_box(part);
+  for (int round = 0; round < kMostRounds; ++round) {
+    glm::dvec3 low(kFarthest_m), high(-kFarthest_m);
+    const auto makes_larger = [&](const Cell& inner) {
+      return glm::any(glm::lessThan(inner.middle - inner.half, low)) ||
+             glm::any(glm::greaterThan(inner.middle + inner.half, high));
+    };
+    for_cells_of_blocks(part, box, kSide, makes_larger, [&](const Cell& inner) {
+      low = glm::min(low, inner.middle - inner.half);
+      high = glm::max(high, inner.middle + inner.half);
+    });
+    if (!(low.x < high.x)) throw std::runtime_error("a part without an inside");
+    const Cell next{0.5 * (low + high), 0.5 * (high - low)};
+    const bool done = glm::all(glm::greaterThan(next.half, kEnough * box.half));
+    box = next;
+    if (done) break;
+  }
+  const glm::dvec3 reach = glm::abs(box.middle) + box.half;
+  if (std::max({reach.x, reach.y, reach.z}) > 0.999 * kFarthest_m)
+    throw std::runtime_error(fmt::format("a part that goes on beyond {} m", kFarthest_m));
+  int cells_left = 200000;
+  if (!find_inside(part, box, 9, cells_left)) throw std::runtime_error("a part without an inside");
+  part.low = box.middle - box.half, part.high = box.middle + box.half;
+  take_middle(part, box);
+}
+
 void find_boxes(ImplicitSurface& implicit) {
   if (implicit.parts.empty()) throw std::runtime_error("a form without parts");
   implicit.low = glm::dvec3(kFarthest_m), implicit.high = glm::dvec3(-kFarthest_m);
   for (ImplicitPart& part : implicit.parts) {
     check_stop();
-    find_box(part);
+    if (part.low == part.high) find_box(part);
     const Cell sweep = swept(part);
     implicit.low = glm::min(implicit.low, sweep.middle - sweep.half);
     implicit.high = glm::max(implicit.high, sweep.middle + sweep.half);

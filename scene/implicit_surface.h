@@ -94,8 +94,12 @@ Interval bounds(const ImplicitTerm& term, glm::dvec3 middle, const Spans& spans)
 // Whether the function may be at least 0 somewhere in the points: never false where it is.
 bool may_hold(const ImplicitPart& part, glm::dvec3 middle, const Spans& spans);
 
-// Finds the boxes of the parts and of the implicit surface. Throws std::runtime_error in one line
-// that begins with what was found: a part without an inside, or one without an end.
+// Finds the part's box and its inside. Throws std::runtime_error in one line that begins with what
+// was found: a part without an inside, or one without an end.
+void find_box(ImplicitPart& part);
+
+// Finds the boxes of the implicit surface and of those of its parts that have none yet. Throws as
+// find_box().
 void find_boxes(ImplicitSurface& implicit);
 
 }  // namespace swell::scene

@@ -107,16 +107,14 @@ class ImplicitReader {
   }
 
  private:
-  // Checks the number of parts and the first that a table gave, so that a message names the table.
-  void check_boxes(const toml::node& node, const ImplicitSurface& implicit,
-                   std::size_t first) const {
+  // Checks the number of parts, and finds the box of the first that a table gave, so that a message
+  // names the table.
+  void check_boxes(const toml::node& node, ImplicitSurface& implicit, std::size_t first) const {
     if (implicit.parts.size() > kMostImplicitParts)
       fail(node, path_, fmt::format("{} parts with their copies", implicit.parts.size()),
            fmt::format("at most {} parts", kMostImplicitParts));
-    ImplicitSurface one;
-    one.parts.push_back(implicit.parts[first]);
     try {
-      find_boxes(one);
+      find_box(implicit.parts[first]);
     } catch (const std::runtime_error& error) {
       fail(node, path_, error.what(), "a shape with an inside and an end");
     }
