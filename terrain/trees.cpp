@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -135,20 +137,21 @@ std::optional<Tree> tree_at(const StandPlan& plan, int i, int j, std::size_t k) 
 // Where a stand may have trees: squares of the land, a coarse grid.
 class StandArea {
  public:
-  StandArea(const TreeStand& stand, const HeightGrid& terrain, const WaterLines& lines)
-      : square_m_(terrain.grid.size_m() / kSquares),
-        may_have_(std::size_t{kSquares} * kSquares, false) {
-    const Grid& grid = terrain.grid;
-    for (int j = 0; j < grid.samples_y; ++j) {
-      check_stop();
-      for (int i = 0; i < grid.samples_x; ++i) {
-        const float height_m = terrain.height_m[grid.index(i, j)];
-        const bool is_land = height_m >= std::max(stand.ground_m.x, 0.0) - kBetweenSamples_m &&
-                             height_m <= stand.ground_m.y + kBetweenSamples_m;
-        if (is_land && may_be_bank(stand, lines, grid, {i, j}))
-          mark(glm::dvec2(i, j) * grid.spacing_m, grid.spacing_m);
-      }
-    }
+  StandArea(const TreeStand& stand, const HeightGrid& terrain, const WaterLines& lines,
+            Workers& workers)
+      : square_m_(terrain.grid.size_m() / kSquares), may_have_(std::size_t{kSquares} * kSquares) {
+    constexpr int kRowsAtOnce = 32;
+    const int rows = terrain.grid.samples_y;
+    const auto pieces = static_cast<std::size_t>((rows + kRowsAtOnce - 1) / kRowsAtOnce);
+    std::vector<std::vector<bool>> of_piece(pieces, may_have_);
+    workers.for_each(pieces, [&](std::size_t piece, int) {
+      const int first = static_cast<int>(piece) * kRowsAtOnce;
+      for (int j = first; j < std::min(first + kRowsAtOnce, rows); ++j)
+        mark_row(stand, terrain, lines, j, of_piece[piece]);
+    });
+    for (const std::vector<bool>& marked : of_piece)
+      std::transform(may_have_.begin(), may_have_.end(), marked.begin(), may_have_.begin(),
+                     std::logical_or<>());
   }
 
   // Whether a square may have any, with this corner from the grid's corner [m].
@@ -177,6 +180,19 @@ class StandArea {
     return is_near(lines.rivers) || (stand.lake_shores && is_near(lines.still));
   }
 
+  void mark_row(const TreeStand& stand, const HeightGrid& terrain, const WaterLines& lines, int j,
+                std::vector<bool>& marked) const {
+    check_stop();
+    const Grid& grid = terrain.grid;
+    for (int i = 0; i < grid.samples_x; ++i) {
+      const float height_m = terrain.height_m[grid.index(i, j)];
+      const bool is_land = height_m >= std::max(stand.ground_m.x, 0.0) - kBetweenSamples_m &&
+                           height_m <= stand.ground_m.y + kBetweenSamples_m;
+      if (is_land && may_be_bank(stand, lines, grid, {i, j}))
+        mark(glm::dvec2(i, j) * grid.spacing_m, grid.spacing_m, marked);
+    }
+  }
+
   std::pair<int, int> squares(double low_m, double high_m) const {
     const auto limit = [&](double x) {
       return static_cast<int>(std::clamp(x / square_m_, 0.0, kSquares - 1.0));
@@ -184,11 +200,11 @@ class StandArea {
     return {limit(low_m), limit(high_m)};
   }
 
-  void mark(glm::dvec2 at_m, double around_m) {
+  void mark(glm::dvec2 at_m, double around_m, std::vector<bool>& marked) const {
     const auto [x0, x1] = squares(at_m.x - around_m, at_m.x + around_m);
     const auto [y0, y1] = squares(at_m.y - around_m, at_m.y + around_m);
     for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) may_have_[static_cast<std::size_t>(y) * kSquares + x] = true;
+      for (int x = x0; x <= x1; ++x) marked[static_cast<std::size_t>(y) * kSquares + x] = true;
   }
 
   double square_m_;
@@ -196,8 +212,8 @@ class StandArea {
 };
 
 // Tiles of the pattern that may have trees, by rows.
-std::vector<std::vector<int>> tiles_of(const StandPlan& plan) {
-  const StandArea area(plan.stand, plan.terrain, plan.lines);
+std::vector<std::vector<int>> tiles_of(const StandPlan& plan, Workers& workers) {
+  const StandArea area(plan.stand, plan.terrain, plan.lines, workers);
   const double size_m = plan.terrain.grid.size_m();
   const int tiles = static_cast<int>(std::ceil((size_m + plan.tile_m) / plan.tile_m));
   std::vector<std::vector<int>> rows(static_cast<std::size_t>(tiles));
@@ -224,21 +240,28 @@ std::vector<Tree> plant_stand(const StandPlan& plan, const std::vector<std::vect
   return all;
 }
 
-// Sorts trees into cells, and within these by rank.
-void sort_into_cells(double size_m, Trees& trees) {
+// Sorts trees into cells, and within these by rank; those of one rank stay in their order.
+void sort_into_cells(double size_m, Workers& workers, Trees& trees) {
   const double cell_m = std::max(kLeastCell_m, size_m / kMostCells);
   const int side = std::max(1, static_cast<int>(std::ceil(size_m / cell_m)));
   const auto cell_of = [&](const Tree& tree) {
     const auto at = [&](float x) { return std::clamp(static_cast<int>(x / cell_m), 0, side - 1); };
-    return at(tree.foot.y) * side + at(tree.foot.x);
+    return static_cast<std::size_t>(at(tree.foot.y)) * side + at(tree.foot.x);
   };
-  std::ranges::stable_sort(trees.trees, {},
-                           [&](const Tree& tree) { return std::pair(cell_of(tree), tree.rank); });
-  for (std::uint32_t i = 0; i < trees.trees.size(); ++i) {
-    if (i == 0 || cell_of(trees.trees[i]) != cell_of(trees.trees[i - 1]))
-      trees.cells.push_back({.first = i});
-    ++trees.cells.back().count;
-  }
+  const std::vector<Tree> before = std::move(trees.trees);
+  std::vector<std::uint32_t> begin(static_cast<std::size_t>(side) * side + 1);
+  for (const Tree& tree : before) ++begin[cell_of(tree) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  for (std::size_t cell = 0; cell + 1 < begin.size(); ++cell)
+    if (const std::uint32_t count = begin[cell + 1] - begin[cell]; count > 0)
+      trees.cells.push_back({.first = begin[cell], .count = count});
+  trees.trees.resize(before.size());
+  for (const Tree& tree : before) trees.trees[begin[cell_of(tree)]++] = tree;
+  workers.for_each(trees.cells.size(), [&](std::size_t n, int) {
+    const TreeCell& cell = trees.cells[n];
+    std::ranges::stable_sort(std::span(trees.trees).subspan(cell.first, cell.count), {},
+                             &Tree::rank);
+  });
 }
 
 void bound_cells(Trees& trees) {
@@ -332,7 +355,7 @@ Trees plant_trees(std::span<const TreeStand> stands, const HeightGrid& terrain,
                          std::move(poisson_tiles[n]),
                          tile_m,
                          {shift(0), shift(1)}};
-    const auto tiles = tiles_of(plan);
+    const auto tiles = tiles_of(plan, workers);
     for (const std::vector<int>& row : tiles)
       places += static_cast<double>(row.size() * kPoissonPoints);
     const auto fail = [&](const std::string& makes, const std::string& allowed) {
@@ -348,7 +371,7 @@ Trees plant_trees(std::span<const TreeStand> stands, const HeightGrid& terrain,
            fmt::format("at most {}", kMostTrees));
     trees.trees.insert(trees.trees.end(), planted.begin(), planted.end());
   }
-  sort_into_cells(size_m, trees);
+  sort_into_cells(size_m, workers, trees);
   bound_cells(trees);
   return trees;
 }
