@@ -379,8 +379,9 @@ void pack_map1(int size, std::span<const float> values, PackedMap1& map) {
   map.size = size;
   map.levels = std::countr_zero(static_cast<unsigned>(size)) + 1;
   resize_large(map.words, 2 * texels);
-  map.scratch.resize(size + 1 + texels);  // a row; levels 1, 2, ...: 1/3 texels
-  map.scratch_bytes.resize(static_cast<std::size_t>(size + 1) * size);
+  // A row; levels 1, 2, ...: 1/3 texels.
+  resize_large(map.scratch, size + 1 + texels);
+  resize_large(map.scratch_bytes, static_cast<std::size_t>(size + 1) * size);
   HWY_DYNAMIC_DISPATCH(build_map1)(values.data(), map);
 }
 
@@ -395,15 +396,16 @@ void pack_map2(int size, std::span<const float> a, std::span<const float> b, flo
   map.levels = std::countr_zero(static_cast<unsigned>(size)) + 1;
   map.detail_levels = std::clamp(map.levels - 2, 1, kMostDetailLevels);
   resize_large(map.words, 2 * texels);
-  map.scratch_quads.resize(2 * texels);
+  resize_large(map.scratch_quads, 2 * texels);
   map.level_offset.resize(map.levels);
   map.lost_variance.resize(map.levels);
   for (int level = 0; level < map.levels; ++level) {
     const std::uint32_t side = static_cast<std::uint32_t>(size) >> level;
     map.level_offset[level] = side * side;
   }
-  map.scratch.resize(size + 1 + texels);  // a row; levels 1, 2, ... of both channels: 2/3 texels
-  map.scratch_bytes.resize(2 * static_cast<std::size_t>(size + 1) * size);
+  // A row; levels 1, 2, ... of both channels: 2/3 texels.
+  resize_large(map.scratch, size + 1 + texels);
+  resize_large(map.scratch_bytes, 2 * static_cast<std::size_t>(size + 1) * size);
   HWY_DYNAMIC_DISPATCH(build_map)(a.data(), b.data(), fixed_scale, least_variance, map);
 }
 

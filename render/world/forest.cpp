@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "math/large_array.h"
 #include "math/stop.h"
 #include "ocean/inland/river_network.h"
 #include "scene/check_scene.h"
@@ -42,19 +44,20 @@ class DiscMap {
   DiscMap(int size, double square_m)
       : size_(size),
         texels_per_m_(static_cast<float>(size / square_m)),
-        left_(static_cast<std::size_t>(size) * size, 1.0f) {}
+        left_(make_large<float>(static_cast<std::size_t>(size) * size)) {
+    std::ranges::fill(left_, 1.0f);
+  }
 
   // Lays discs 0 to count - 1, each disc(i), in their order at every texel.
   template <class DiscOf>
   void add(std::size_t count, Workers& workers, const DiscOf& disc) {
-    std::vector<Disc> discs(count);
-    for_pieces(count, workers, [&](std::size_t i) { discs[i] = disc(i); });
+    std::vector<Laid> all(count);
+    for_pieces(count, workers, [&](std::size_t i) { all[i] = lay(disc(i)); });
     workers.for_each(static_cast<std::size_t>(size_ / kBandRows), [&](std::size_t band, int) {
-      const int first = static_cast<int>(band) * kBandRows;
-      for (const Disc& one : discs) {
-        check_stop();
-        add_rows(one, first, first + kBandRows - 1);
-      }
+      const int first = static_cast<int>(band) * kBandRows, last = first + kBandRows - 1;
+      check_stop();
+      for (const Laid& one : all)
+        if (one.y0 <= last && one.y1 >= first) add_rows(one, first, last);
     });
   }
 
@@ -68,11 +71,19 @@ class DiscMap {
 
   int size() const { return size_; }
   const std::vector<float>& left() const { return left_; }
+  std::vector<float> take_left() && { return std::move(left_); }
 
  private:
   static constexpr int kBandRows = 64;
 
-  void add_rows(const Disc& disc, int first_row, int last_row) {
+  // A disc in texels, and those that it may cover.
+  struct Laid {
+    glm::vec2 middle, direction;
+    float along, across, covered;
+    int x0, y0, x1, y1;
+  };
+
+  Laid lay(const Disc& disc) const {
     const glm::vec2 middle = disc.middle_m * texels_per_m_, direction = disc.direction;
     // Discs narrower than a texel are as large as one, and fainter.
     const float along = std::max(disc.along_m * texels_per_m_, 0.8f);
@@ -86,15 +97,22 @@ class DiscMap {
       return static_cast<int>(std::ceil(1.25f * std::sqrt(a * a + b * b)));
     };
     const int reach_x = reach(direction.x, direction.y), reach_y = reach(direction.y, direction.x);
-    const auto x0 = static_cast<int>(middle.x), y0 = static_cast<int>(middle.y);
-    const int x_end = std::min(x0 + reach_x, size_ - 1), y_end = std::min(y0 + reach_y, last_row);
-    for (int y = std::max(y0 - reach_y, first_row); y <= y_end; ++y)
-      for (int x = std::max(x0 - reach_x, 0); x <= x_end; ++x) {
-        const glm::vec2 d = glm::vec2(x, y) - middle;
-        const float a = glm::dot(d, direction) / along;
-        const float b = (d.y * direction.x - d.x * direction.y) / across;
+    const auto x = static_cast<int>(middle.x), y = static_cast<int>(middle.y);
+    return {middle,      direction,
+            along,       across,
+            covered,     std::max(x - reach_x, 0),
+            y - reach_y, std::min(x + reach_x, size_ - 1),
+            y + reach_y};
+  }
+
+  void add_rows(const Laid& disc, int first_row, int last_row) {
+    for (int y = std::max(disc.y0, first_row); y <= std::min(disc.y1, last_row); ++y)
+      for (int x = disc.x0; x <= disc.x1; ++x) {
+        const glm::vec2 d = glm::vec2(x, y) - disc.middle;
+        const float a = glm::dot(d, disc.direction) / disc.along;
+        const float b = (d.y * disc.direction.x - d.x * disc.direction.y) / disc.across;
         const float inside = std::clamp(2.5f - 2.0f * std::sqrt(a * a + b * b), 0.0f, 1.0f);
-        left_[static_cast<std::size_t>(y) * size_ + x] *= 1.0f - covered * inside;
+        left_[static_cast<std::size_t>(y) * size_ + x] *= 1.0f - disc.covered * inside;
       }
   }
 
@@ -126,10 +144,11 @@ Disc shadow_of(const Tree& tree, const terrain::HeightGrid& land, glm::vec3 to_l
           .part = kShadeOfCrown};
 }
 
-void pack(const DiscMap& discs, bool is_left, texture::PackedMap1& map) {
-  std::vector<float> values(discs.left());
+void pack(DiscMap discs, bool is_left, texture::PackedMap1& map) {
+  const int size = discs.size();
+  std::vector<float> values = std::move(discs).take_left();
   for (float& value : values) value = 2.0f * (is_left ? value : 1.0f - value) - 1.0f;
-  texture::pack_map1(discs.size(), values, map);
+  texture::pack_map1(size, values, map);
 }
 
 float crowding_at(const Tree& tree, const DiscMap& cover) {
@@ -207,8 +226,8 @@ void add_canopy(const terrain::HeightGrid& land, glm::vec3 to_light, Workers& wo
   constexpr float kBetweenCrowns = 0.9f;  // of a crown's light, with the shade around it
   forest.canopy_albedo = kBetweenCrowns * albedo / area;
   forest.mean_height_m = height / area;
-  workers.run_both([&] { pack(cover, false, forest.cover); },
-                   [&] { pack(shade, true, forest.sun_left); });
+  workers.run_both([&] { pack(std::move(cover), false, forest.cover); },
+                   [&] { pack(std::move(shade), true, forest.sun_left); });
 }
 
 // Metres from the edge of the nearest river, below 0 in it and in lakes with an outline.
