@@ -189,7 +189,7 @@ template <int kSamples>
 void DrawTriangles(const Pass::State& state, int tile, const SampleTarget& target) {
   SmallSampler<kSamples> sampler(target);
   SmallQueue small;
-  const auto draw_small = [&] HWY_ATTR {
+  const auto draw_small = [&]() HWY_ATTR {
     small.DrawAll([&](const SmallCorners* corners, const SmallDepths* depths, std::size_t count)
                       HWY_ATTR { sampler.Add(corners, depths, count); });
   };

@@ -1,6 +1,6 @@
 // Draws small triangles of a tile side by side, a lane each: depth and primitive of the pixels
-// whose centres they cover. The same arithmetic as one by one, for the same bits. Per-target code:
-// for *_simd.cpp files and what they include.
+// whose centres they cover. The same arithmetic as one by one, for the same bits.
+// Per-target code: for *_simd.cpp files and what they include.
 #if defined(SWELL_RASTER_DRAW_SMALL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_RASTER_DRAW_SMALL_INL_H_
 #undef SWELL_RASTER_DRAW_SMALL_INL_H_
@@ -90,6 +90,7 @@ HWY_INLINE void ResolveSmall(const SmallPixels& pixels, V primitive, const TileT
   }
 }
 
+// Draws a packet of which `count` lanes are used.
 HWY_INLINE void DrawSmall(const SmallCorners* HWY_RESTRICT corners,
                           const SmallDepths* HWY_RESTRICT depths, std::size_t count,
                           const TileTarget& tile) {

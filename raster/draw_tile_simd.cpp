@@ -199,7 +199,7 @@ int DrawTile(const Pass::State& state, int tile_index, float* depth, std::uint32
                         box.y0_px + box.height_px};
   ClearTile(tile);
   SmallQueue small;
-  const auto draw_small = [&] HWY_ATTR {
+  const auto draw_small = [&]() HWY_ATTR {
     small.DrawAll([&](const SmallCorners* corners, const SmallDepths* depths, std::size_t count)
                       HWY_ATTR { DrawSmall(corners, depths, count, tile); });
   };

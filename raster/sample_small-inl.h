@@ -1,5 +1,6 @@
 // Draws the samples of small triangles side by side, a lane each. The same arithmetic as one by
-// one, for the same bits. Per-target code: for *_simd.cpp files and what they include.
+// one, for the same bits.
+// Per-target code: for *_simd.cpp files and what they include.
 #if defined(SWELL_RASTER_SAMPLE_SMALL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWELL_RASTER_SAMPLE_SMALL_INL_H_
 #undef SWELL_RASTER_SAMPLE_SMALL_INL_H_
