@@ -38,7 +38,7 @@ template <class... T>
 // Opens regular files in one folder and below, of a bounded size together.
 class OneFolder : public Assimp::DefaultIOSystem {
  public:
-  OneFolder(fs::path folder, const InputCounter& count_inputs)
+  OneFolder(const fs::path& folder, const InputCounter& count_inputs)
       : folder_(fs::weakly_canonical(folder)), count_inputs_(count_inputs) {}
 
   bool Exists(const char* file) const override { return !allowed_path(file).empty(); }
