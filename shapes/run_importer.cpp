@@ -93,7 +93,10 @@ class Child {
     check(error, program.c_str());
   }
   ~Child() {
-    if (pid_ > 0) kill(pid_, SIGKILL), wait();
+    if (pid_ <= 0) return;
+    kill(pid_, SIGKILL);
+    while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+    }
   }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;

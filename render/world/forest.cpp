@@ -64,7 +64,7 @@ class DiscMap {
   float at(glm::vec2 p_m) const {
     const auto limit = [&](float v) {
       return static_cast<std::size_t>(
-          std::clamp(static_cast<int>(v * texels_per_m_ + 0.5f), 0, size_ - 1));
+          std::clamp(static_cast<int>(std::floor(v * texels_per_m_ + 0.5f)), 0, size_ - 1));
     };
     return 1.0f - left_[limit(p_m.y) * static_cast<std::size_t>(size_) + limit(p_m.x)];
   }
