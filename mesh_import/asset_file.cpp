@@ -46,13 +46,13 @@ class OneFolder : public Assimp::DefaultIOSystem {
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     const fs::path path = allowed_path(file);
     if (mode[0] != 'r' || path.empty()) return nullptr;
-    if (opened_.insert(path).second) {  // readers open a file more than once
-      std::error_code error;
-      const std::uint64_t bytes = fs::file_size(path, error);
-      taken_ += error ? shapes::kMostMeshFileBytes : bytes;
-      count_inputs_(bytes);
-    }
+    std::error_code error;
+    const std::uint64_t bytes = fs::file_size(path, error);
+    if (error) return nullptr;
+    const bool is_first = opened_.insert(path).second;  // readers open a file more than once
+    if (is_first) taken_ += bytes;
     if (taken_ > shapes::kMostMeshFileBytes) return nullptr;
+    if (is_first) count_inputs_(bytes);
     return DefaultIOSystem::Open(file, "rb");
   }
 

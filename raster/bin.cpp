@@ -55,8 +55,8 @@ TileRange tiles_to_list(const SetupTriangle& t, Viewport viewport, int samples, 
 
 void list_tiles(const TileGrid& grid, Viewport viewport, int samples, std::uint32_t index,
                 Chunk& chunk) {
-  const int shift = grid.tile_size_px == 64 ? 6 : grid.tile_size_px == 32 ? 5 : 4;
-  const TileRange range = tiles_to_list(chunk.triangles[index], viewport, samples, shift);
+  const TileRange range =
+      tiles_to_list(chunk.triangles[index], viewport, samples, grid.tile_log2());
   if (range.x0 != range.x1 && range.y0 != range.y1)
     return bin_by_edges(grid, range, sample_extent(samples), chunk, index);
   // In one row or column of tiles the triangle passes through every tile of its box.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -59,7 +60,7 @@ HWY_INLINE Box PixelsBetween(const Box& bounds, SampleExtent extent, Viewport vi
 // Whether boxes hold no position of a pattern by its lines.
 HWY_INLINE MI LiesBetween(const Box& bounds, int samples) {
   const std::int32_t spacing_fx8 = sample_spacing_fx8(samples);
-  const int shift = samples == 8 ? 5 : samples == 4 ? 6 : kFractionBits;
+  const int shift = std::countr_zero(static_cast<unsigned>(spacing_fx8));
   const auto lines_below = [&](VI v) HWY_ATTR { return hn::ShiftRightSame(v, shift); };
   const auto none = [&](VI low, VI high) HWY_ATTR {
     return lines_below(low + (spacing_fx8 / 2 - 1)) == lines_below(high + spacing_fx8 / 2);
@@ -132,34 +133,25 @@ HWY_INLINE MI CullSmall(const std::array<Corner, 3>& v, const Box& bounds, VI ar
   return is_culled;
 }
 
-struct Rules {
-  SetupRules set_up;
-  TileGrid grid;
-  int tile_shift;
-};
-
 HWY_INLINE VI PlacesOf(const std::array<Corner, 3>& v, const Box& bounds, VI area, MI is_small,
-                       const Rules& rules, PassStatistics& statistics) {
+                       const SetupRules& rules, const TileGrid& grid, PassStatistics& statistics) {
   const DI di;
-  const Viewport viewport = rules.set_up.viewport;
-  const int sample_count = rules.set_up.samples;
-  const Box centres = PixelsBetween(bounds, sample_extent(0), viewport);
-  const Box samples = PixelsBetween(bounds, sample_extent(sample_count), viewport);
+  const Box centres = PixelsBetween(bounds, sample_extent(0), rules.viewport);
+  const Box samples = PixelsBetween(bounds, sample_extent(rules.samples), rules.viewport);
   const MI is_between = IsEmpty(centres);
-  const MI is_culled =
-      CullSmall(v, bounds, area, is_small, is_between, samples, rules.set_up, statistics);
+  const MI is_culled = CullSmall(v, bounds, area, is_small, is_between, samples, rules, statistics);
   const VI pixels = (centres.x1 - centres.x0 + 1) * (centres.y1 - centres.y0 + 1);
   const MI is_kept =
       hn::AndNot(is_culled, is_small) & (is_between | (pixels < kMostSmallPixels + 1));
   statistics.set_up += hn::CountTrue(di, is_kept);
   statistics.set_up_for_samples += hn::CountTrue(di, is_kept & is_between);
 
-  const auto tile_of = [&](VI px) HWY_ATTR { return hn::ShiftRightSame(px, rules.tile_shift); };
+  const auto tile_of = [&](VI px) HWY_ATTR { return hn::ShiftRightSame(px, grid.tile_log2()); };
   const VI tile_x = tile_of(samples.x0), tile_y = tile_of(samples.y0);
   const auto flag_if = [&](MI mask, std::int32_t flag)
                            HWY_ATTR { return IfThenElseZero(mask, hn::Set(di, flag)); };
-  const VI place = (tile_y * rules.grid.tiles_x + tile_x) | flag_if(is_between, kBetweenCentres) |
-                   flag_if(LiesBetween(bounds, sample_count), kBetweenSamples) |
+  const VI place = (tile_y * grid.tiles_x + tile_x) | flag_if(is_between, kBetweenCentres) |
+                   flag_if(LiesBetween(bounds, rules.samples), kBetweenSamples) |
                    flag_if(tile_of(samples.x1) > tile_x, kTwoColumns) |
                    flag_if(tile_of(samples.y1) > tile_y, kTwoRows);
   return IfThenElse(is_kept, place,
@@ -167,11 +159,10 @@ HWY_INLINE VI PlacesOf(const std::array<Corner, 3>& v, const Box& bounds, VI are
 }
 
 void FindSmallTriangles(std::span<const WindowVertex> vertices,
-                        std::span<const std::uint32_t> indices, const SetupRules& set_up,
+                        std::span<const std::uint32_t> indices, const SetupRules& rules,
                         const TileGrid& grid, std::uint32_t first_primitive,
                         const SmallOutputs& out, PassStatistics& statistics) {
   const DI di;
-  const Rules rules{set_up, grid, grid.tile_size_px == 64 ? 6 : grid.tile_size_px == 32 ? 5 : 4};
   const std::size_t count = indices.size() / 3;
   FetchedCorners fetched{};
   for (std::size_t n = 0; n < count; n += kLanes) {
@@ -191,7 +182,7 @@ void FindSmallTriangles(std::span<const WindowVertex> vertices,
       continue;
     }
     const VI area = (v[1].x - v[0].x) * (v[2].y - v[0].y) - (v[2].x - v[0].x) * (v[1].y - v[0].y);
-    hn::StoreU(PlacesOf(v, bounds, area, is_small, rules, statistics), di, &out.place[n]);
+    hn::StoreU(PlacesOf(v, bounds, area, is_small, rules, grid, statistics), di, &out.place[n]);
     PutInOrder(area < 0, v);
     hn::StoreInterleaved4(v[0].x, v[0].y, Offset(v[0], v[1]), Offset(v[0], v[2]), di,
                           &out.corners[n].x_fx8);

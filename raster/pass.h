@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -80,6 +81,7 @@ const PassStatistics& pass_statistics(const Pass& pass);
 struct TileGrid {
   int tile_size_px = 0, tiles_x = 0, tiles_y = 0;
   int count() const { return tiles_x * tiles_y; }
+  int tile_log2() const { return std::countr_zero(static_cast<unsigned>(tile_size_px)); }
 };
 TileGrid tile_grid(Viewport viewport, int tile_size_px);
 

@@ -31,14 +31,16 @@ inline constexpr std::int32_t kTwoColumns = 1 << 27, kTwoRows = 1 << 28;
 // Its bounding box holds no centre of a pixel, or no sample: only the other may see it.
 inline constexpr std::int32_t kBetweenCentres = 1 << 29, kBetweenSamples = 1 << 30;
 
-// Looks for small ones among triangles that share `vertices` by `indices`, 3 a triangle, each less
-// than vertices.size(). Writes where each goes and, of small ones, what they are; triangle n is
-// primitive first_primitive + n. Outputs are as long as small_size() says. Counts those left out.
+// Of each triangle, as long as small_size() says.
 struct SmallOutputs {
   std::span<std::int32_t> place;
   std::span<SmallCorners> corners;
   std::span<SmallDepths> depths;
 };
+
+// Looks for small ones among triangles that share `vertices` by `indices`, 3 a triangle, each less
+// than vertices.size(). Writes where each goes and, of small ones, what they are; triangle n is
+// primitive first_primitive + n. Counts those left out.
 void find_small_triangles(std::span<const WindowVertex> vertices,
                           std::span<const std::uint32_t> indices, const SetupRules& rules,
                           const TileGrid& grid, std::uint32_t first_primitive,

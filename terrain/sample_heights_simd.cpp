@@ -149,7 +149,7 @@ HWY_INLINE VD GoesOn(const Map& map, const Points& p, const Points& near, VD par
   return ground + (level - ground) * SmoothBlend(Clamp01(part / kGoesOnPart));
 }
 
-// Beyond the map, where `mask` holds.
+// Beyond the map (terrain/apron.h), where `mask` holds.
 HWY_INLINE VD OnApron(const HeightGrid& heights, const Map& map, const Points& p, MD mask) {
   const DD dd;
   const double width_m = heights.apron.width_m, floor = heights.apron.floor_m;
