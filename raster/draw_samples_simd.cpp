@@ -13,7 +13,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/draw_samples_simd.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -186,35 +185,27 @@ int FinishSamples(std::span<float> depth, std::span<const std::uint32_t> primiti
 }
 
 template <int kSamples>
-void DrawTriangles(const Pass::State& state, int tile, const SampleTarget& target) {
-  SmallSampler<kSamples> sampler(target);
-  SmallQueue small;
-  const auto draw_small = [&]() HWY_ATTR {
-    small.DrawAll([&](const SmallCorners* corners, const SmallDepths* depths, std::size_t count)
-                      HWY_ATTR { sampler.Add(corners, depths, count); });
-  };
-  for (std::size_t c = 0; c < state.chunk_count; ++c) {
-    const Chunk& chunk = state.chunks[c];
-    const std::uint32_t end = chunk.tile_begin[tile + 1];
-    constexpr std::uint32_t kAhead = 4;  // triangles fetched before their turn
-    for (std::uint32_t m = chunk.tile_begin[tile]; m < end; ++m) {
-      const Member member = chunk.members[m];
-      if (member.is_small()) {
-        small.Add(chunk, member.place(), member.may_cover_samples());
-        if (small.IsFull()) draw_small();
-        continue;
-      }
-      const Member ahead = chunk.members[std::min(m + kAhead, end - 1)];
-      if (!ahead.is_small()) hwy::Prefetch(&chunk.triangles[ahead.place()]);
-      const SetupTriangle& t = chunk.triangles[member.place()];
-      if (!MayHoldMarked(t, target)) continue;
-      draw_small();
-      sampler.Draw();
-      SampleTriangle<kSamples>(t, target);
-    }
+struct SampleDrawer {
+  const SampleTarget& target;
+  SmallSampler<kSamples> sampler{target};
+
+  HWY_INLINE bool MayCover(Member member) const { return member.may_cover_samples(); }
+  HWY_INLINE bool MayDraw(const SetupTriangle& t) const { return MayHoldMarked(t, target); }
+  HWY_INLINE void DrawSmall(const SmallCorners* corners, const SmallDepths* depths,
+                            std::size_t count) {
+    sampler.Add(corners, depths, count);
   }
-  draw_small();
-  sampler.Draw();
+  HWY_INLINE void Draw(const SetupTriangle& t) {
+    sampler.Draw();
+    SampleTriangle<kSamples>(t, target);
+  }
+};
+
+template <int kSamples>
+void DrawTriangles(const Pass::State& state, int tile, const SampleTarget& target) {
+  SampleDrawer<kSamples> drawer{target};
+  DrawInOrder(state, tile, drawer);
+  drawer.sampler.Draw();
 }
 
 // Fills in where the marked pixels are; `column` has room for the samples of a whole tile.

@@ -9,7 +9,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/draw_tile_simd.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -187,6 +186,18 @@ int FinishTile(const TileTarget& tile, Viewport viewport) {
   return static_cast<int>(covered);
 }
 
+struct CentreDrawer {
+  const TileTarget& tile;
+
+  HWY_INLINE bool MayCover(Member member) const { return member.may_cover_centres(); }
+  HWY_INLINE bool MayDraw(const SetupTriangle&) const { return true; }
+  HWY_INLINE void DrawSmall(const SmallCorners* corners, const SmallDepths* depths,
+                            std::size_t count) const {
+    HWY_NAMESPACE::DrawSmall(corners, depths, count, tile);
+  }
+  HWY_INLINE void Draw(const SetupTriangle& t) const { DrawTriangle(t, tile); }
+};
+
 int DrawTile(const Pass::State& state, int tile_index, float* depth, std::uint32_t* primitive) {
   const std::int32_t size = state.grid.tile_size_px;
   const PixelBox box = tile_box(state.viewport, state.grid, tile_index);
@@ -198,29 +209,8 @@ int DrawTile(const Pass::State& state, int tile_index, float* depth, std::uint32
                         box.x0_px + box.width_px,
                         box.y0_px + box.height_px};
   ClearTile(tile);
-  SmallQueue small;
-  const auto draw_small = [&]() HWY_ATTR {
-    small.DrawAll([&](const SmallCorners* corners, const SmallDepths* depths, std::size_t count)
-                      HWY_ATTR { DrawSmall(corners, depths, count, tile); });
-  };
-  for (std::size_t c = 0; c < state.chunk_count; ++c) {
-    const Chunk& chunk = state.chunks[c];
-    const std::uint32_t end = chunk.tile_begin[tile_index + 1];
-    constexpr std::uint32_t kAhead = 4;  // triangles fetched before their turn
-    for (std::uint32_t m = chunk.tile_begin[tile_index]; m < end; ++m) {
-      const Member member = chunk.members[m];
-      if (member.is_small()) {
-        small.Add(chunk, member.place(), member.may_cover_centres());
-        if (small.IsFull()) draw_small();
-        continue;
-      }
-      const Member ahead = chunk.members[std::min(m + kAhead, end - 1)];
-      if (!ahead.is_small()) hwy::Prefetch(&chunk.triangles[ahead.place()]);
-      draw_small();
-      DrawTriangle(chunk.triangles[member.place()], tile);
-    }
-  }
-  draw_small();
+  CentreDrawer drawer{tile};
+  DrawInOrder(state, tile_index, drawer);
   return FinishTile(tile, state.viewport);
 }
 

@@ -59,6 +59,39 @@ class SmallQueue {
   std::array<const SmallDepths*, kRoom + 1> depths_;
 };
 
+// Draws a tile's triangles in submission order, small ones by packets. `drawer` says
+// MayCover(member) of a small one and MayDraw(triangle) of one of any size, and has
+// DrawSmall(corners, depths, count) and Draw(triangle), before which all small ones were drawn that
+// came before.
+template <class Drawer>
+HWY_INLINE void DrawInOrder(const Pass::State& state, int tile, Drawer& drawer) {
+  SmallQueue small;
+  const auto draw_small = [&]() HWY_ATTR {
+    small.DrawAll([&](const SmallCorners* corners, const SmallDepths* depths, std::size_t count)
+                      HWY_ATTR { drawer.DrawSmall(corners, depths, count); });
+  };
+  for (std::size_t c = 0; c < state.chunk_count; ++c) {
+    const Chunk& chunk = state.chunks[c];
+    const std::uint32_t end = chunk.tile_begin[tile + 1];
+    constexpr std::uint32_t kAhead = 4;  // triangles fetched before their turn
+    for (std::uint32_t m = chunk.tile_begin[tile]; m < end; ++m) {
+      const Member member = chunk.members[m];
+      if (member.is_small()) {
+        small.Add(chunk, member.place(), drawer.MayCover(member));
+        if (small.IsFull()) draw_small();
+        continue;
+      }
+      const Member ahead = chunk.members[std::min(m + kAhead, end - 1)];
+      if (!ahead.is_small()) hwy::Prefetch(&chunk.triangles[ahead.place()]);
+      const SetupTriangle& t = chunk.triangles[member.place()];
+      if (!drawer.MayDraw(t)) continue;
+      draw_small();
+      drawer.Draw(t);
+    }
+  }
+  draw_small();
+}
+
 // Corners in the window, [1/256 px].
 struct SmallVertices {
   VI x[3], y[3];
