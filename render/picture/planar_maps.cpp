@@ -57,6 +57,11 @@ void size_target(const raster::TileGrid& grid, int levels, PlanarTarget& target)
     target.written.assign(tiles, 0);
   }
   target.wanted.assign(tiles, 0);
+  target.tile_rows.assign(static_cast<std::size_t>(grid.tiles_y) * columns_of(target.image), {});
+}
+
+const std::uint32_t* rows_of(const PlanarTarget& target) {
+  return target.shown_rows.empty() ? nullptr : target.shown_rows.data();
 }
 
 void clear_tile(const Shading& s, int tile, texture::RgbaImage& image) {
@@ -84,6 +89,7 @@ void draw_planar_tile(int tile, ThreadScratch& scratch, PlanarTarget& target) {
   }
   const bool drawn = covered > 0;
   if (drawn) {
+    find_tile_rows(target.image, target.shading.grid, tile, primitive, target.tile_rows);
     shade_planar_tile(target.shading, tile, depth, primitive, scratch.shade, target.image);
   } else if (target.written[tile]) {
     clear_tile(target.shading, tile, target.image);
@@ -105,6 +111,7 @@ void draw_planar_map(const Meshes& meshes, const MaterialInputs& inputs, int til
     draw_planar_tile(static_cast<int>(tile), *scratch[thread], target);
   });
   texture::fill_padding(target.image);
+  find_shown_rows(target.image, target.tile_rows, target.shown_rows);
 }
 
 // Sizes a river's mirror and finds its tiles that water may look into; returns whether there are
@@ -151,7 +158,8 @@ void draw_river_mirrors(const Meshes& meshes, const RenderView& window,
     draw_planar_map(meshes, inputs, visibility.grid.tile_size_px, scratch, target, run);
     const glm::vec2 scale = scale_of(target.view.camera, window.camera);
     const RiverMirror& level = meshes.rivers.mirror[k];
-    mirrors.images.push_back({{&target.image, scale.x, scale.y}, level.level_m, level.share});
+    mirrors.images.push_back(
+        {{&target.image, scale.x, scale.y, rows_of(target)}, level.level_m, level.share});
   }
   inputs.river_images = mirrors.images;
 }
@@ -202,8 +210,8 @@ void draw_planar_maps(const Meshes& meshes, const RenderView& window,
       images.of_tile[tile].reflection |= reflection.written[t] != 0;
       images.of_tile[tile].refraction |= refraction.written[t] != 0;
     });
-  inputs.reflection = {&reflection.image, scale.x, scale.y};
-  inputs.refraction = {&refraction.image, scale.x, scale.y};
+  inputs.reflection = {&reflection.image, scale.x, scale.y, rows_of(reflection)};
+  inputs.refraction = {&refraction.image, scale.x, scale.y, rows_of(refraction)};
 }
 
 }  // namespace swell::render

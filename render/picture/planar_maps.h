@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/materials/list.h"
+#include "render/picture/shown_rows.h"
 #include "render/tile/shading.h"
 #include "render/view/render_view.h"
 #include "render/view/visibility.h"
@@ -21,8 +22,10 @@ using ScratchList = std::span<const std::unique_ptr<ThreadScratch>>;  // one a t
 struct PlanarTarget {
   RenderView view;
   texture::RgbaImage image;
-  std::vector<std::uint8_t> wanted;   // per tile: water can look into it
-  std::vector<std::uint8_t> written;  // per tile: holds anything but zeros
+  std::vector<std::uint8_t> wanted;       // per tile: water can look into it
+  std::vector<std::uint8_t> written;      // per tile: holds anything but zeros
+  std::vector<RowRange> tile_rows;        // find_tile_rows() has them
+  std::vector<std::uint32_t> shown_rows;  // PlanarMap has them
   ViewShading shading;
 };
 

@@ -1,6 +1,7 @@
 // What materials are filled from, once a view.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -30,6 +31,10 @@ struct WorldState;
 struct PlanarMap {
   const texture::RgbaImage* image = nullptr;
   float scale_x = 1.0f, scale_y = 1.0f;
+  // In which rows [begin, end) of the image lookups may find anything, begin | end << 16, of every
+  // 8 columns of texels; null where nothing is known of it.
+  static constexpr int kColumnsLog2 = 3;
+  const std::uint32_t* shown_rows = nullptr;
 };
 
 // How the water's slopes displace what it mirrors: less where the surface is seen edge-on.

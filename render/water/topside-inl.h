@@ -37,6 +37,22 @@ struct Looked {
   V alpha;
 };
 
+// Whether a planar map may show anything at any lane's window position.
+HWY_INLINE bool MayShow(const PlanarMap& map, V x_px, V y_px) {
+  if (!map.shown_rows) return true;
+  const DI di;
+  // Not a number is 0, as lookups have it.
+  const auto whole = [&](V v, int size) HWY_ATTR {
+    return TruncateToInt(IfThenElseZero(v > 0.0f, Min(v, static_cast<float>(size - 1))));
+  };
+  const VI column =
+      hn::ShiftRight<PlanarMap::kColumnsLog2>(whole(x_px * map.scale_x, map.image->width));
+  const VI row = whole(y_px * map.scale_y, map.image->height);
+  const VI rows =
+      hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(map.shown_rows), column);
+  return !hn::AllFalse(di, hn::AndNot(row < (rows & 0xffff), row < hn::ShiftRight<16>(rows)));
+}
+
 // Looks a planar map up at a window position, on a level of it. Samples beside nothing are no
 // darker: only their alpha is less.
 HWY_INLINE Looked LookUpAt(const PlanarMap& map, V x_px, V y_px, const BlurLevel& level) {
@@ -50,6 +66,15 @@ HWY_INLINE Looked LookUpAt(const PlanarMap& map, V x_px, V y_px, const BlurLevel
   // Codes that were blended with zeros.
   if (!hn::AllFalse(d, some & (alpha < one))) code = code * (one / Max(alpha, 1.0f / 512.0f));
   return {DecodeLight(code), alpha};
+}
+
+HWY_INLINE Looked ShowNothing() { return {Constant(glm::vec3(0.0f)), hn::Zero(D())}; }
+
+// Looks a planar map up where slopes of this variance spread what it shows. Not inlined: few
+// packets come here.
+static HWY_NOINLINE Looked LookUpSoftly(const PlanarMap& map, V x_px, V y_px, V variance,
+                                        V px2_per_slope2) {
+  return LookUpAt(map, x_px, y_px, FindBlur(map, variance, px2_per_slope2));
 }
 
 // What `front` leaves of a place shows `behind`.
@@ -74,17 +99,22 @@ HWY_INLINE Looked LookUpDistorted(const Water& water, const PlanarMap& map, cons
   const Distortion& distortion = water.images.distortion;
   const V gain = sign * distortion.px_per_slope *
                  Clamp(packet.to_eye.z * distortion.by_sine, distortion.least, 1.0f);
-  // What lies under water is near the surface: slopes too fine to see move it by less than they
-  // spread it.
-  const BlurLevel level = kBacked ? Sharp() : FindBlur(map, s.variance, gain * gain);
   const float bound = water.images.max_distortion_px;
   const V dx = Clamp(right * (gain * -distortion.across), -bound, bound);
   const V dy = Clamp(ahead * gain, -bound, bound);
   const V half = Constant(0.5f);
   const V x = packet.x_px + half, y = packet.y_px + half;
-  const Looked moved = LookUpAt(map, x + dx, y + dy, level);
-  const bool found = hn::AllTrue(d, moved.alpha >= 1.0f);
-  return !kBacked || found ? moved : LayOver(moved, LookUpAt(map, x, y, level));
+  if constexpr (!kBacked) {
+    return MayShow(map, x + dx, y + dy) ? LookUpSoftly(map, x + dx, y + dy, s.variance, gain * gain)
+                                        : ShowNothing();
+  } else {
+    // What lies under water is near the surface: slopes too fine to see move it by less than they
+    // spread it.
+    if (!MayShow(map, x + dx, y + dy) && !MayShow(map, x, y)) return ShowNothing();
+    const Looked moved = LookUpAt(map, x + dx, y + dy, Sharp());
+    const bool found = hn::AllTrue(d, moved.alpha >= 1.0f);
+    return found ? moved : LayOver(moved, LookUpAt(map, x, y, Sharp()));
+  }
 }
 
 // The part of the facets seen that mirror the sea again, not the sky. The mean slopes send the ray

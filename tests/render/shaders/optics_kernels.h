@@ -33,6 +33,18 @@ struct DistortedLookUp {
 void look_up_distorted(const Water& water, const PlanarMap& map,
                        std::span<const DistortedLookUp> lookups, std::span<glm::vec3> light);
 
+// What LookUpSoftly() finds at a window position where slopes spread it by spread_px.
+struct SoftLookUp {
+  glm::vec2 at_px;
+  float spread_px;
+};
+struct FoundSoftly {
+  float alpha = 0.0f;
+  bool may_show = false;  // MayShow()
+};
+void look_up_softly(const PlanarMap& map, std::span<const SoftLookUp> lookups,
+                    std::span<FoundSoftly> found);
+
 // ProjectedGlitter() in these directions to the eye on water of one normal.
 void projected_glitter(const Glitter& glitter, std::span<const glm::vec3> to_eye, glm::vec3 normal,
                        float variance, std::span<float> light);

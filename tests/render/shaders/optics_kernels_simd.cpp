@@ -86,6 +86,19 @@ void LookUpAll(const Water& water, const PlanarMap& map, std::span<const Distort
   }
 }
 
+// One lookup a packet, in all of its lanes.
+void LookUpAllSoftly(const PlanarMap& map, std::span<const SoftLookUp> lookups,
+                     std::span<FoundSoftly> found) {
+  for (std::size_t i = 0; i < lookups.size(); ++i) {
+    const SoftLookUp& l = lookups[i];
+    const V x = Constant(l.at_px.x), y = Constant(l.at_px.y);
+    // The variance is of both axes together.
+    const V variance = Constant(2.0f + kGlassVariance);
+    const Looked looked = LookUpSoftly(map, x, y, variance, Constant(l.spread_px * l.spread_px));
+    found[i] = {hn::GetLane(looked.alpha), MayShow(map, x, y)};
+  }
+}
+
 void GlitterAt(const Glitter& glitter, std::span<const glm::vec3> to_eye, glm::vec3 normal,
                float variance, std::span<float> light) {
   for (std::size_t i = 0; i < to_eye.size(); ++i)
@@ -103,6 +116,7 @@ namespace swell::render {
 HWY_EXPORT(Fresnel);
 HWY_EXPORT(SampleInPackets);
 HWY_EXPORT(LookUpAll);
+HWY_EXPORT(LookUpAllSoftly);
 HWY_EXPORT(GlitterAt);
 
 void fresnel_reflectance(std::span<const float> cos_theta, float n, std::span<float> reflectance) {
@@ -117,6 +131,11 @@ void sample_water(const Water& water, const ViewRays& rays, int packets_at_once,
 void look_up_distorted(const Water& water, const PlanarMap& map,
                        std::span<const DistortedLookUp> lookups, std::span<glm::vec3> light) {
   HWY_DYNAMIC_DISPATCH(LookUpAll)(water, map, lookups, light);
+}
+
+void look_up_softly(const PlanarMap& map, std::span<const SoftLookUp> lookups,
+                    std::span<FoundSoftly> found) {
+  HWY_DYNAMIC_DISPATCH(LookUpAllSoftly)(map, lookups, found);
 }
 
 void projected_glitter(const Glitter& glitter, std::span<const glm::vec3> to_eye, glm::vec3 normal,
