@@ -121,7 +121,9 @@ HWY_INLINE V KeptBeside(const NearShore& near, V3 p, V level_m) {
   return IfThenElse(IsInside(near.map, place), kept, one);
 }
 
-HWY_INLINE NearShoreAt SampleNearShore(const NearShore& near, V3 p, V level_m) {
+// left: what other foam and waves leave of these; fronts that do not lift the water are not looked
+// for where it is 0.
+HWY_INLINE NearShoreAt SampleNearShore(const NearShore& near, V3 p, V level_m, V left) {
   const D d;
   const V zero = hn::Zero(d);
   const LayerPlace place = PlaceIn(near.map, p.x, p.y);
@@ -136,7 +138,7 @@ HWY_INLINE NearShoreAt SampleNearShore(const NearShore& near, V3 p, V level_m) {
     at.foam = at.fronts.foam;
     return at;
   }
-  const auto is_surf = at.inside & (part < 0.995f);
+  const auto is_surf = at.inside & (part < 0.995f) & (left > 0.0f);
   if (hn::AllFalse(d, is_surf)) return at;
   const V kept = 1.0f - taken;
   at.foam = IfThenElseZero(is_surf, FrontFoam(near.fronts, p, part, kept, level_m));

@@ -113,9 +113,9 @@ HWY_INLINE void SampleSurf(const Water& water, V3 p, V level_m, Surf& surf) {
   surf.has_trains = surf.inside = hn::MaskFromVec(zero);
   if (water.trains.on) SampleTrains(water, p, level_m, surf);
   if (water.near_shore.map.map) {
-    const NearShoreAt shore = SampleNearShore(water.near_shore, p, level_m);
     // What trains leave: they are the waves, where there are some.
     const V left = one - surf.ceded;
+    const NearShoreAt shore = SampleNearShore(water.near_shore, p, level_m, left);
     const float torn = water.near_shore.fronts.torn;
     surf.torn_foam = shore.foam * left * torn;
     surf.foam = MulAdd(shore.foam * (1.0f - torn), left, surf.foam);
