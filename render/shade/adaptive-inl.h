@@ -283,7 +283,8 @@ inline HWY_NOINLINE void FillSecondRound(int side, int height, const TileSurface
 // `columns` count as the column itself.
 HWY_INLINE RowBits UnlikeAround(const float* row, RowBits columns, int side) {
   const D d;
-  HWY_ALIGN std::array<float, 4 + 64 + kLanes> beside{};  // of column x at 2 + x
+  HWY_ALIGN std::array<float, 4 + 64 + kLanes> beside;          // of column x at 2 + x
+  beside[0] = beside[1] = beside[2] = beside[3 + side] = 0.0f;  // of none
   for (int x = 0; x < side; x += static_cast<int>(kLanes))
     hn::StoreU(hn::AbsDiff(hn::LoadU(d, row + x), hn::LoadU(d, row + x + 2)), d,
                beside.data() + 3 + x);
