@@ -89,20 +89,12 @@ struct AirInDirection {
 
 template <class InDirection>
 HWY_INLINE void FindNodes(const Shading& s, const raster::PixelBox& box, SkyNodes& nodes) {
-  const D d;
   static_assert(InDirection::kChannels <= SkyNodes::kAirChannels);
-  const int columns = nodes_along(box.width_px), rows = nodes_along(box.height_px);
-  for (int row = 0; row < rows; ++row) {
-    const V y_px = Constant(static_cast<float>(box.y0_px + row * kStep));
-    for (int column = 0; column < columns; column += static_cast<int>(kLanes)) {
-      const V x_px = MulAdd(hn::ConvertTo(d, CountFrom(column)), static_cast<float>(kStep),
-                            static_cast<float>(box.x0_px));
-      const auto at = static_cast<std::size_t>(row) * SkyNodes::kStride + column;
-      InDirection::Find(s, RayAt(s.rays, x_px, y_px))
-          .Visit([&](std::size_t channel, V value)
-                     HWY_ATTR { hn::StoreU(value, d, &nodes.air[channel][at]); });
-    }
-  }
+  ForEachNodes(box, nodes_along(box.height_px), [&](V x_px, V y_px, const auto& store) HWY_ATTR {
+    InDirection::Find(s, RayAt(s.rays, x_px, y_px))
+        .Visit([&](std::size_t channel, V value)
+                   HWY_ATTR { store(value, nodes.air[channel].data()); });
+  });
 }
 
 // Fog, and the air below an eye far over the sea. The sky has what is before it.

@@ -6,6 +6,9 @@
 #define SWELL_RENDER_TILE_LATTICE_INL_H_
 #endif
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "render/packets/packet-inl.h"
@@ -22,6 +25,38 @@ constexpr float kMostStepAngle = 0.006f;  // more, and too much of the sky lies 
 
 // Nodes along one side, for so many pixels.
 constexpr int nodes_along(int pixels) { return (pixels - 1) / kStep + 2; }
+
+// Calls visit(x_px, y_px, store) for packets that hold the first `rows` rows of a tile's nodes,
+// which are every kStep pixels; store(values, channel) puts a packet's values into a channel.
+template <class Visit>
+HWY_INLINE void ForEachNodes(const raster::PixelBox& box, int rows, const Visit& visit) {
+  const D d;
+  constexpr int kPacket = static_cast<int>(kLanes), kStride = static_cast<int>(SkyNodes::kStride);
+  const auto place = [&](VI node, int first_px) HWY_ATTR {
+    return MulAdd(hn::ConvertTo(d, node), static_cast<float>(kStep), static_cast<float>(first_px));
+  };
+  const int columns = nodes_along(box.width_px);
+  // A whole tile has a column more than fills packets: that one goes down.
+  const int last = columns - 1, across = columns % kPacket == 1 ? last : columns;
+  for (int row = 0; row < rows; ++row) {
+    const V y_px = place(hn::Set(DI(), row), box.y0_px);
+    for (int column = 0; column < across; column += kPacket)
+      visit(place(CountFrom(column), box.x0_px), y_px, [&](V values, float* channel) HWY_ATTR {
+        hn::StoreU(values, d, channel + row * kStride + column);
+      });
+  }
+  if (across == columns) return;
+  const V x_px = place(hn::Set(DI(), last), box.x0_px);
+  for (int row = 0; row < rows; row += kPacket) {
+    const int count = std::min(rows - row, kPacket);
+    const VI down = Min(CountFrom(row), hn::Set(DI(), rows - 1));
+    visit(x_px, place(down, box.y0_px), [&](V values, float* channel) HWY_ATTR {
+      HWY_ALIGN std::array<float, kLanes> value;
+      hn::Store(values, d, value.data());
+      for (int i = 0; i < count; ++i) channel[(row + i) * kStride + last] = value[i];
+    });
+  }
+}
 
 // Where a row of pixels lies between two rows of nodes; `row` in pixels.
 struct BetweenRows {

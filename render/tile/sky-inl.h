@@ -98,10 +98,11 @@ static HWY_NOINLINE V3 ShadeSky(const Shading& s, const raster::PixelBox& box,
   return BehindFog(s, ray, SkyLight(s, view, noise, ray, true));
 }
 
-HWY_INLINE void StoreView(const SkyView& view, bool clouds, std::size_t at, SkyNodes& nodes) {
-  const D d;
+template <class StoreNodes>
+HWY_INLINE void StoreView(const SkyView& view, bool clouds, const StoreNodes& store_nodes,
+                          SkyNodes& nodes) {
   std::size_t channel = 0;
-  const auto store = [&](V value) HWY_ATTR { hn::StoreU(value, d, &nodes.view[channel++][at]); };
+  const auto store = [&](V value) HWY_ATTR { store_nodes(value, nodes.view[channel++].data()); };
   store(view.clear.x), store(view.clear.y), store(view.clear.z);
   if (!clouds) return;
   const CloudView& c = view.clouds;
@@ -128,14 +129,14 @@ inline bool IsFogOnLattice(const Shading& s) {
          fog.at_eye.above_m * thinnest > 10.0f * kStep * s.rays.pixel_angle;
 }
 
-HWY_INLINE void StoreFog(const FogView& view, std::size_t at, SkyNodes& nodes) {
-  const D d;
-  hn::StoreU(view.added.x, d, &nodes.air[0][at]);
-  hn::StoreU(view.added.y, d, &nodes.air[1][at]);
-  hn::StoreU(view.added.z, d, &nodes.air[2][at]);
-  hn::StoreU(view.passes.x, d, &nodes.air[3][at]);
-  hn::StoreU(view.passes.y, d, &nodes.air[4][at]);
-  hn::StoreU(view.passes.z, d, &nodes.air[5][at]);
+template <class StoreNodes>
+HWY_INLINE void StoreFog(const FogView& view, const StoreNodes& store, SkyNodes& nodes) {
+  store(view.added.x, nodes.air[0].data());
+  store(view.added.y, nodes.air[1].data());
+  store(view.added.z, nodes.air[2].data());
+  store(view.passes.x, nodes.air[3].data());
+  store(view.passes.y, nodes.air[4].data());
+  store(view.passes.z, nodes.air[5].data());
 }
 
 template <class Read>
@@ -152,27 +153,19 @@ HWY_INLINE FogView ReadFog(const SkyNodes& nodes, bool is_grey, const Read& read
 // there may see the disc.
 inline bool FindView(const Shading& s, const raster::PixelBox& box, int rows, SkyNodes& nodes) {
   const D d;
-  const int columns = nodes_along(box.width_px);
-  const float step = static_cast<float>(kStep);
   V nearest = Constant(-4.0f);
   const bool has_fog = IsFogOnLattice(s);
-  for (int row = 0; row < rows; ++row) {
-    const V y_px = Constant(static_cast<float>(box.y0_px + row * kStep));
-    for (int column = 0; column < columns; column += static_cast<int>(kLanes)) {
-      const V x_px =
-          MulAdd(hn::ConvertTo(d, CountFrom(column)), step, static_cast<float>(box.x0_px));
-      const V3 ray = RayAt(s.rays, x_px, y_px);
-      const auto at = static_cast<std::size_t>(row) * SkyNodes::kStride + column;
-      StoreView(ViewSky(s, ray), s.light.clouds.any, at, nodes);
-      const V3 direction = ray * InverseSqrt(Dot(ray, ray));
-      nearest = Max(nearest, Dot(direction, Constant(s.light.to_disc)));
-      if (has_fog)
-        StoreFog(SkyFog(s.media.fog, s.media.fog.at_eye, direction, kPlacesBeforeSky), at, nodes);
-    }
-  }
+  ForEachNodes(box, rows, [&](V x_px, V y_px, const auto& store) HWY_ATTR {
+    const V3 ray = RayAt(s.rays, x_px, y_px);
+    StoreView(ViewSky(s, ray), s.light.clouds.any, store, nodes);
+    const V3 direction = ray * InverseSqrt(Dot(ray, ray));
+    nearest = Max(nearest, Dot(direction, Constant(s.light.to_disc)));
+    if (has_fog)
+      StoreFog(SkyFog(s.media.fog, s.media.fog.at_eye, direction, kPlacesBeforeSky), store, nodes);
+  });
   // No pixel is further from a node than a step's diagonal, no direction turns by more than
   // pixel_angle a pixel, and cos(a) is over 1 - a^2 / 2.
-  const float reach = 1.02f * kDiscRadius + (1.5f * step + 1.0f) * s.rays.pixel_angle;
+  const float reach = 1.02f * kDiscRadius + (1.5f * kStep + 1.0f) * s.rays.pixel_angle;
   return !hn::AllTrue(d, nearest < 1.0f - 0.5f * reach * reach - 1e-6f);
 }
 
