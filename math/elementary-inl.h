@@ -36,10 +36,14 @@ HWY_INLINE VI LowestBeyondInt(V x, VI number) {
 // give the highest one on that side.
 template <class V>
 HWY_INLINE hn::Vec<hn::RebindToSigned<hn::DFromV<V>>> TruncateToInt(V x) {
+  using Integers = hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>;
 #if HWY_TARGET == HWY_AVX2
-  return hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>{_mm256_cvttps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 32) return Integers{_mm256_cvttps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 16) return Integers{_mm_cvttps_epi32(x.raw)};
 #elif HWY_ARCH_X86
-  return hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>{_mm512_cvttps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 64) return Integers{_mm512_cvttps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 32) return Integers{_mm256_cvttps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 16) return Integers{_mm_cvttps_epi32(x.raw)};
 #else
   return LowestBeyondInt(x, hn::ConvertTo(hn::RebindToSigned<hn::DFromV<V>>(), x));
 #endif
@@ -47,10 +51,14 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<hn::DFromV<V>>> TruncateToInt(V x) {
 
 template <class V>
 HWY_INLINE hn::Vec<hn::RebindToSigned<hn::DFromV<V>>> RoundToInt(V x) {
+  using Integers = hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>;
 #if HWY_TARGET == HWY_AVX2
-  return hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>{_mm256_cvtps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 32) return Integers{_mm256_cvtps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 16) return Integers{_mm_cvtps_epi32(x.raw)};
 #elif HWY_ARCH_X86
-  return hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>{_mm512_cvtps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 64) return Integers{_mm512_cvtps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 32) return Integers{_mm256_cvtps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 16) return Integers{_mm_cvtps_epi32(x.raw)};
 #else
   return LowestBeyondInt(x, hn::NearestInt(x));
 #endif
@@ -80,7 +88,7 @@ HWY_INLINE void SinCosTurns(D d, V x, V& sin_out, V& cos_out) {
   c = MulAdd(c, f2, -19.739209f);
   c = MulAdd(c, f2, 1.0f);
   // Quarter turns: odd ones swap, 1 and 2 negate the cosine, 2 and 3 the sine.
-  const auto q = hn::ConvertTo(di, quarter);
+  const auto q = TruncateToInt(quarter);
   const auto odd = hn::MaskFromVec(hn::BitCast(d, -(q & 1)));
   const auto two = hn::Set(di, 2);
   const auto sin_sign = hn::ShiftLeft<30>(q & two);
@@ -92,7 +100,6 @@ HWY_INLINE void SinCosTurns(D d, V x, V& sin_out, V& cos_out) {
 // 2^x, x clamped to [-126, 126]; exact where x is whole. Relative error 1e-7. NaN gives NaN.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Exp2(D d, V x) {
-  const hn::RebindToSigned<D> di;
   // Not Min and Max: which operand they return beside a NaN depends on the target.
   const V low = hn::Set(d, -126.0f), high = hn::Set(d, 126.0f);
   x = IfThenElse(x < low, low, x);
@@ -107,7 +114,7 @@ HWY_INLINE V Exp2(D d, V x) {
   p = MulAdd(p, r, 0.240226507f);
   p = MulAdd(p, r, 0.693147182f);
   p = MulAdd(p, r, 1.0f);
-  const auto power = hn::ShiftLeft<23>(hn::ConvertTo(di, k) + 127);
+  const auto power = hn::ShiftLeft<23>(TruncateToInt(k) + 127);
   return p * hn::BitCast(d, power);
 }
 

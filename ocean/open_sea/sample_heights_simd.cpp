@@ -258,15 +258,14 @@ HWY_INLINE V WorldPacket(const SeaFrame& frame, std::span<const PatchScale> scal
 // origin + an offset in metres as 16.16 samples modulo the patch. Wrapped before it is scaled up:
 // it has to fit.
 HWY_INLINE FixedPlace FixedOffset(V offset_m, const PatchFrame& patch, OriginPlace origin) {
-  const DI di;
   const V patches = offset_m * origin.periods_per_m;
   const V whole = Floor(patches);
   const float fixed_size = 65536.0f * static_cast<float>(patch.resolution);
-  const VI fraction = hn::NearestInt((patches - whole) * fixed_size);
+  const VI fraction = RoundToInt((patches - whole) * fixed_size);
   const VI sum = fraction + origin.fx16;
   const VI wraps = hn::ShiftRight<16>(
       hn::ShiftRightSame(sum, std::countr_zero(static_cast<unsigned>(patch.resolution))));
-  const VI period = hn::ConvertTo(di, whole) + wraps + origin.period;
+  const VI period = TruncateToInt(whole) + wraps + origin.period;
   const VI fx16 = sum & (65536 * patch.resolution - 1);
   return {fx16, period};
 }

@@ -75,9 +75,9 @@ struct FrameCloudField {
     const V x = cell_of(place.x), y = cell_of(place.y);
     const V z = Clamp(cell_of(place.z), 0.0f, static_cast<float>(volume.cell_levels - 1));
     const VI wrap = hn::Set(di, CloudVolume::kCells - 1);
-    const VI row = hn::ShiftLeft<CloudVolume::kCellsLog2>(hn::ConvertTo(di, z)) +
-                   (hn::ConvertTo(di, y) & wrap);
-    const VI at = hn::ShiftLeft<CloudVolume::kCellsLog2>(row) + (hn::ConvertTo(di, x) & wrap);
+    const VI row =
+        hn::ShiftLeft<CloudVolume::kCellsLog2>(TruncateToInt(z)) + (TruncateToInt(y) & wrap);
+    const VI at = hn::ShiftLeft<CloudVolume::kCellsLog2>(row) + (TruncateToInt(x) & wrap);
     const VI bytes = LoadWords(volume.empty, at).lower;
     const V cells = hn::ConvertTo(D(), bytes & 0xff);
     // The faces of the box of empty cells that the ray leaves by.

@@ -59,7 +59,7 @@ void CloudShadowRowOf(const CloudShadowRow& in, std::uint8_t* row) {
     if (in.volume) light = light * LightUnderVolume(in, x_m, y_m);
     const V part = Clamp(light * (1.0f / in.most), 0.0f, 1.0f);
     HWY_ALIGN std::array<std::int32_t, hn::MaxLanes(d)> values;
-    hn::Store(hn::ConvertTo(DI(), MulAdd(part, 255.0f, 0.5f)), DI(), values.data());
+    hn::Store(TruncateToInt(MulAdd(part, 255.0f, 0.5f)), DI(), values.data());
     for (std::size_t i = 0; i < values.size(); ++i)
       row[static_cast<std::size_t>(x) + i] = static_cast<std::uint8_t>(values[i]);
   }

@@ -22,7 +22,7 @@ struct LatticePlace {
 
 HWY_INLINE LatticePlace PlaceOnLattice(V x) {
   const V whole = Floor(x);
-  return {hn::ConvertTo(DI(), whole), x - whole};
+  return {TruncateToInt(whole), x - whole};
 }
 
 // The 64 bits that begin at an entry of a table: their lower and upper halves.
@@ -56,9 +56,8 @@ struct HalfWeights {
 };
 
 HWY_INLINE HalfWeights WeightsOf(V part_of_entries, V part_of_halves) {
-  const DI di;
-  const VI x = hn::ConvertTo(di, part_of_entries * 128.0f);
-  const VI y = hn::ConvertTo(di, part_of_halves * 128.0f);
+  const VI x = TruncateToInt(part_of_entries * 128.0f);
+  const VI y = TruncateToInt(part_of_halves * 128.0f);
   const VI both = hn::ShiftLeft<16>(y) + 128 - y;
   return {hn::BitCast(Halves(), hn::ShiftLeft<16>(x) | x), hn::BitCast(Halves(), both)};
 }

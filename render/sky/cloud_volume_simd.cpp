@@ -14,7 +14,7 @@ namespace swell::render {
 namespace HWY_NAMESPACE {
 
 HWY_INLINE VI ToByte(V part) {
-  return hn::ConvertTo(DI(), MulAdd(Clamp(part, 0.0f, 1.0f), 255.0f, 0.5f));
+  return TruncateToInt(MulAdd(Clamp(part, 0.0f, 1.0f), 255.0f, 0.5f));
 }
 
 // Skylight comes from straight above and from four sides; what is scattered on its way goes on, so

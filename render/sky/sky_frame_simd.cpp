@@ -20,7 +20,7 @@ constexpr float kSoftAngleLog2 = -4.5f;
 HWY_INLINE VI ByteOf(V radiance) {
   const V part = Max(radiance, 0.0f) * (1.0f / kSoftSkyRange);
   const V code = Sqrt(Min(part, 1.0f)) * 255.0f;
-  return hn::ConvertTo(DI(), code + 0.5f);
+  return TruncateToInt(code + 0.5f);
 }
 
 HWY_INLINE VI CodeOf(V3 light) {

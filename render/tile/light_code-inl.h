@@ -23,7 +23,7 @@ HWY_INLINE VI EncodeLight(V radiance) {
   const V x = Max(radiance, 0.0f);
   const V c = Sqrt(x / (x + 1.0f));
   const V code = Min(c * 255.0f, kMostLightCode);
-  return hn::ConvertTo(DI(), code + 0.5f);
+  return TruncateToInt(code + 0.5f);
 }
 
 // Radiance of codes in [0, 1], blended ones too; what is over the largest code counts as that. The

@@ -49,7 +49,7 @@ HWY_INLINE V EncodeSrgb(V x) {
 // sRGB, a dither of one step, 8 bits.
 HWY_INLINE VI ToByte(V display, V dither) {
   const V code = EncodeSrgb(display) + dither;
-  return hn::ConvertTo(DI(), Min(code, 255.0f));
+  return TruncateToInt(Min(code, 255.0f));
 }
 
 // Pixels of display light at these places, alpha 255.
