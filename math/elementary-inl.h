@@ -31,34 +31,35 @@ HWY_INLINE VI LowestBeyondInt(V x, VI number) {
 }
 #endif
 
+template <class V>
+using IntegersOf = hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>;
+
 // x without its fraction, and the whole number nearest to x (of two, the even one). The lowest
 // integer where |x| >= 2^31 or x is NaN; Highway's own conversions take three more instructions to
 // give the highest one on that side.
 template <class V>
-HWY_INLINE hn::Vec<hn::RebindToSigned<hn::DFromV<V>>> TruncateToInt(V x) {
-  using Integers = hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>;
+HWY_INLINE IntegersOf<V> TruncateToInt(V x) {
 #if HWY_TARGET == HWY_AVX2
-  if constexpr (sizeof(V) == 32) return Integers{_mm256_cvttps_epi32(x.raw)};
-  if constexpr (sizeof(V) == 16) return Integers{_mm_cvttps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 32) return IntegersOf<V>{_mm256_cvttps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 16) return IntegersOf<V>{_mm_cvttps_epi32(x.raw)};
 #elif HWY_ARCH_X86
-  if constexpr (sizeof(V) == 64) return Integers{_mm512_cvttps_epi32(x.raw)};
-  if constexpr (sizeof(V) == 32) return Integers{_mm256_cvttps_epi32(x.raw)};
-  if constexpr (sizeof(V) == 16) return Integers{_mm_cvttps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 64) return IntegersOf<V>{_mm512_cvttps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 32) return IntegersOf<V>{_mm256_cvttps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 16) return IntegersOf<V>{_mm_cvttps_epi32(x.raw)};
 #else
   return LowestBeyondInt(x, hn::ConvertTo(hn::RebindToSigned<hn::DFromV<V>>(), x));
 #endif
 }
 
 template <class V>
-HWY_INLINE hn::Vec<hn::RebindToSigned<hn::DFromV<V>>> RoundToInt(V x) {
-  using Integers = hn::Vec<hn::RebindToSigned<hn::DFromV<V>>>;
+HWY_INLINE IntegersOf<V> RoundToInt(V x) {
 #if HWY_TARGET == HWY_AVX2
-  if constexpr (sizeof(V) == 32) return Integers{_mm256_cvtps_epi32(x.raw)};
-  if constexpr (sizeof(V) == 16) return Integers{_mm_cvtps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 32) return IntegersOf<V>{_mm256_cvtps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 16) return IntegersOf<V>{_mm_cvtps_epi32(x.raw)};
 #elif HWY_ARCH_X86
-  if constexpr (sizeof(V) == 64) return Integers{_mm512_cvtps_epi32(x.raw)};
-  if constexpr (sizeof(V) == 32) return Integers{_mm256_cvtps_epi32(x.raw)};
-  if constexpr (sizeof(V) == 16) return Integers{_mm_cvtps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 64) return IntegersOf<V>{_mm512_cvtps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 32) return IntegersOf<V>{_mm256_cvtps_epi32(x.raw)};
+  if constexpr (sizeof(V) == 16) return IntegersOf<V>{_mm_cvtps_epi32(x.raw)};
 #else
   return LowestBeyondInt(x, hn::NearestInt(x));
 #endif
