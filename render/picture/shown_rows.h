@@ -17,7 +17,7 @@ struct RowRange {
   bool empty() const { return begin >= end; }
 };
 
-// How many times PlanarMap's columns of texels there are in an image.
+// How many of PlanarMap's columns an image has.
 int columns_of(const texture::RgbaImage& image);
 
 // Finds the rows of a drawn tile of an image that show anything: `primitive` is the tile's buffer.
