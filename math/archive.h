@@ -69,8 +69,8 @@ class Archive {
     }
   }
 
-  template <class T>
-  void add(std::vector<T>& values) {
+  template <class T, class Memory>
+  void add(std::vector<T, Memory>& values) {
     std::uint64_t count = values.size();
     bytes_.add_count(count, sizeof(T));
     if (count != values.size()) resize_large(values, count);

@@ -9,13 +9,24 @@
 
 namespace swell {
 
-// Calls body(j) for each row j of a map of so many rows, with several rows to a piece of work.
+// Rows of a map that are one piece of work.
+inline constexpr int kRowsOfPiece = 16;
+
+// Calls body(first, end) for pieces of a map of so many rows.
+template <class Body>
+void for_each_piece(int rows, Workers& workers, const Body& body) {
+  const int pieces = (rows + kRowsOfPiece - 1) / kRowsOfPiece;
+  workers.for_each(static_cast<std::size_t>(pieces), [&](std::size_t n, int) {
+    const int first = static_cast<int>(n) * kRowsOfPiece;
+    body(first, std::min(first + kRowsOfPiece, rows));
+  });
+}
+
+// Calls body(j) for each row j of a map of so many rows.
 template <class Body>
 void for_each_row(int rows, Workers& workers, const Body& body) {
-  constexpr int kRows = 16;
-  workers.for_each(static_cast<std::size_t>((rows + kRows - 1) / kRows), [&](std::size_t n, int) {
-    const int first = static_cast<int>(n) * kRows;
-    for (int j = first; j < std::min(first + kRows, rows); ++j) {
+  for_each_piece(rows, workers, [&](int first, int end) {
+    for (int j = first; j < end; ++j) {
       check_stop();
       body(j);
     }

@@ -8,7 +8,11 @@
 #include <tuple>
 #include <vector>
 
-#include "texture/image/image.h"
+#include "math/large_array.h"
+
+namespace swell {
+class Workers;
+}
 
 namespace swell::texture {
 
@@ -24,6 +28,13 @@ struct alignas(16) PackedWord {
   bool operator==(const PackedWord&) const = default;
 };
 
+// Sums over a row of a level, both channels together or each: of squares, and of squared
+// differences of texels side by side and across.
+struct PackedRowSums {
+  double squares;
+  std::array<double, 2> beside, across;
+};
+
 // A periodic two-channel map with mip levels, for slopes, normals and offsets; value = byte *
 // scale. Level l is (size >> l) squared, down to 1 x 1; a level of side s begins at word s * s, so
 // that a sampler finds it without a table.
@@ -35,15 +46,14 @@ struct PackedMap2 {
   // The words of the last of them blend to 0; without any all are 0.
   int detail_levels = 1;
   float scale = 1.0f;
-  std::vector<PackedWord> words;
+  LargeArray<PackedWord> words;
   std::vector<std::uint32_t> level_offset;  // first word of each level
   // Variance of a and b together that bilinear samples of each level lack of level 0's texels, >=
   // 0: feeds the roughness of water.
   std::vector<float> lost_variance;
-  // What building needs; kept so that a frame allocates nothing.
-  std::vector<float> scratch;
-  std::vector<std::int8_t> scratch_bytes;
-  std::vector<PackedQuad> scratch_quads;
+  // What building needs, kept so that a frame allocates nothing: coarser levels, and sums of rows.
+  LargeArray<float> scratch;
+  std::vector<PackedRowSums> scratch_sums;
 
   auto fields() {
     return std::tie(size, levels, detail_levels, scale, words, level_offset, lost_variance);
@@ -59,9 +69,10 @@ inline constexpr int kMostDetailLevels = 7;
 // 127 (1 if all are 0), or `fixed_scale` if positive (values are clamped). Bytes are rounded to
 // nearest even. Values must be finite. A level whose mean square, of a and b together, is below
 // `least_variance` has no detail, and no coarser one has. Keeps capacity; allocates nothing when
-// sizes repeat. Single-threaded; the same bits on every SIMD target.
+// sizes repeat. Rows are shared by the threads of `workers`, if there are any; the same bits with
+// any number of them and on every SIMD target.
 void pack_map2(int size, std::span<const float> a, std::span<const float> b, float fixed_scale,
-               PackedMap2& map, float least_variance = 0.0f);
+               PackedMap2& map, float least_variance = 0.0f, Workers* workers = nullptr);
 
 // A periodic map of one channel in [-1, 1] with mip levels, laid out as PackedMap2's, but that a
 // word holds a texel's quad and nothing else: 127 times the values from the low byte up, v(i,j)
@@ -70,16 +81,15 @@ void pack_map2(int size, std::span<const float> a, std::span<const float> b, flo
 struct PackedMap1 {
   int size = 0;    // power of two, [1, 4096]
   int levels = 0;  // log2(size) + 1
-  std::vector<std::uint32_t> words;
-  // What building needs.
-  std::vector<float> scratch;
-  std::vector<std::int8_t> scratch_bytes;
+  LargeArray<std::uint32_t> words;
+  LargeArray<float> scratch;  // coarser levels
 
   auto fields() { return std::tie(size, levels, words); }
 };
 
 // Builds `map` from size x size values, which are clamped, as pack_map2 builds its maps.
-void pack_map1(int size, std::span<const float> values, PackedMap1& map);
+void pack_map1(int size, std::span<const float> values, PackedMap1& map,
+               Workers* workers = nullptr);
 
 // An RGBA image for lookups at continuous window positions: 8 bits a channel, one texel of
 // padding right and below so that a bilinear sample is two 64-bit loads (texels x, x+1 of rows y,

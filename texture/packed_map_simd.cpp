@@ -5,11 +5,14 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "math/check.h"
+#include "math/for_each_row.h"
 #include "math/lanes-inl.h"
 #include "math/large_array.h"
 #include "math/stop.h"
@@ -24,6 +27,17 @@ using D = hn::CappedTag<float, 8>;
 using V = hn::Vec<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 constexpr int kQuadsAtOnce = 16;
+constexpr int kMostSize = 4096, kMostLevels = 13;
+
+// Calls body(first, end) for rows of a level, on all threads of `workers` where that is worth it.
+template <class Body>
+void ForPieces(int rows, Workers* workers, const Body& body) {
+  constexpr int kFewRows = 64;
+  if (workers && rows > kFewRows)
+    for_each_piece(rows, *workers, body);
+  else
+    body(0, rows);
+}
 
 // Sums of squares in eight columns on every target, so that they have one order.
 class ColumnSums {
@@ -137,14 +151,18 @@ void filter_row(const float* HWY_RESTRICT above, const float* HWY_RESTRICT row,
   }
 }
 
-// Halves both channels, each size x size.
-void filter_down(const float* HWY_RESTRICT from, int size, float* HWY_RESTRICT column,
+// Halves a channel of size x size.
+void filter_down(const float* HWY_RESTRICT from, int size, Workers* workers,
                  float* HWY_RESTRICT to) {
-  for (int j = 0; j < size / 2; ++j) {
-    const std::ptrdiff_t y = 2 * j, above = (y + size - 1) & (size - 1);
-    filter_row(from + above * size, from + y * size, from + (y + 1) * size, size, column,
-               to + static_cast<std::ptrdiff_t>(j) * (size / 2));
-  }
+  ForPieces(size / 2, workers, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+    std::array<float, kMostSize + 1> column;
+    check_stop();
+    for (std::ptrdiff_t j = first; j < end; ++j) {
+      const std::ptrdiff_t y = 2 * j, above = (y + size - 1) & (size - 1);
+      filter_row(from + above * size, from + y * size, from + (y + 1) * size, size, column.data(),
+                 to + j * (size / 2));
+    }
+  });
 }
 
 // Quads of one row from the byte rows j (0) and j + 1 (1) of both channels.
@@ -207,77 +225,122 @@ double squared_differences(const float* HWY_RESTRICT from, const float* HWY_REST
   return total;
 }
 
-// What bilinear samples between a channel's texels lack of the texels' squares, in the mean over
-// all places between them, times the number of texels. Along one axis (1 - t) v + t w has the mean
-// square (v^2 + v w + w^2) / 3: (v - w)^2 / 6 less than the mean of the squares.
-double lost_between_texels(const float* values, int size) {
-  double beside = 0.0, across = 0.0;
-  for (std::ptrdiff_t j = 0; j < size; ++j) {
-    const float* const row = values + j * size;
-    const float* const next = values + ((j + 1) & (size - 1)) * size;
-    beside += squared_differences(row, row, 1, size) + squared_differences(row, next, 0, size);
-    across += squared_differences(row, next, 1, size) + squared_differences(next, row, 1, size);
-  }
-  return beside / 9.0 + across / 36.0;
+// Adds to the sums of rows what row j of a channel has.
+void add_row(const float* values, int size, std::ptrdiff_t j, std::size_t channel,
+             PackedRowSums& sums) {
+  const float* const row = values + j * size;
+  const float* const next = values + ((j + 1) & (size - 1)) * size;
+  sums.squares += sum_of_squares(row, size);
+  sums.beside[channel] =
+      squared_differences(row, row, 1, size) + squared_differences(row, next, 0, size);
+  sums.across[channel] =
+      squared_differences(row, next, 1, size) + squared_differences(next, row, 1, size);
 }
 
-// LevelSquares sums both channels over a level's texels: their squares, and lost_between_texels().
+// The sum over a level's texels of both channels' squares, less what bilinear samples between
+// texels lack of them in the mean over all places. Along one axis (1 - t) v + t w has the mean
+// square (v^2 + v w + w^2) / 3: (v - w)^2 / 6 less than the mean of the squares.
 struct LevelSquares {
   double texels = 0.0, lost_between = 0.0;
 };
 
-// Quantises and packs one level.
-LevelSquares build_level(const float* a, const float* b, int size, float per_unit,
-                         std::int8_t* bytes, PackedQuad* quads) {
-  const std::ptrdiff_t stride = size + 1;
-  std::int8_t* const a_bytes = bytes;
-  std::int8_t* const b_bytes = bytes + stride * size;
-  LevelSquares squares;
-  for (std::ptrdiff_t j = 0; j < size; ++j) {
-    quantize_row(a + j * size, size, per_unit, a_bytes + j * stride);
-    quantize_row(b + j * size, size, per_unit, b_bytes + j * stride);
-    squares.texels += sum_of_squares(a + j * size, size) + sum_of_squares(b + j * size, size);
-  }
-  squares.lost_between = lost_between_texels(a, size) + lost_between_texels(b, size);
-  for (std::ptrdiff_t j = 0; j < size; ++j) {
-    const std::ptrdiff_t next = (j + 1) & (size - 1);
-    pack_row(a_bytes + j * stride, a_bytes + next * stride, b_bytes + j * stride,
-             b_bytes + next * stride, size, quads + j * size);
-  }
-  return squares;
-}
-
-// Puts each quad of a level beside the one of the next coarser level around it, or beside 0 if
-// that is null.
-void join_levels(const PackedQuad* HWY_RESTRICT fine, const PackedQuad* HWY_RESTRICT coarse,
-                 int size, PackedWord* HWY_RESTRICT words) {
-  const hn::Full128<PackedQuad> d;
-  if (size == 1 || !coarse) {
-    for (std::ptrdiff_t n = 0; n < std::ptrdiff_t{size} * size; ++n) words[n] = {fine[n], 0};
-    return;
-  }
-  for (std::ptrdiff_t j = 0; j < size; ++j) {
-    const PackedQuad* const above = coarse + j / 2 * (size / 2);
-    for (std::ptrdiff_t i = 0; i < size; i += 2) {
-      const auto pair = hn::LoadU(d, fine + j * size + i), around = hn::Set(d, above[i / 2]);
-      auto* const out = reinterpret_cast<PackedQuad*>(words + j * size + i);
-      hn::Store(hn::InterleaveLower(d, pair, around), d, out);
-      hn::Store(hn::InterleaveUpper(d, pair, around), d, out + 2);
+LevelSquares sum_level(const float* a, const float* b, int size, Workers* workers,
+                       std::span<PackedRowSums> rows) {
+  ForPieces(size, workers, [&](int first, int end) {
+    check_stop();
+    for (int j = first; j < end; ++j) {
+      PackedRowSums& sums = rows[static_cast<std::size_t>(j)];
+      sums.squares = 0.0;
+      add_row(a, size, j, 0, sums);
+      add_row(b, size, j, 1, sums);
+    }
+  });
+  LevelSquares all;
+  std::array<double, 2> beside{}, across{};
+  for (const PackedRowSums& row : rows.first(static_cast<std::size_t>(size))) {
+    all.texels += row.squares;
+    for (std::size_t channel = 0; channel < 2; ++channel) {
+      beside[channel] += row.beside[channel];
+      across[channel] += row.across[channel];
     }
   }
+  for (std::size_t channel = 0; channel < 2; ++channel)
+    all.lost_between += beside[channel] / 9.0 + across[channel] / 36.0;
+  return all;
 }
 
-void join_all_levels(PackedMap2& map) {
-  if (map.detail_levels == 0) {
-    std::ranges::fill(map.words, PackedWord{0, 0});
-    return;
+// A row of a channel's level as bytes, and the one below it.
+class ByteRows {
+ public:
+  ByteRows(const float* values, int size, float per_unit)
+      : values_(values), size_(size), per_unit_(per_unit) {}
+
+  // Goes to row j; downwards one by one each row is made once.
+  void go_to(std::ptrdiff_t j) {
+    if (at_ == j) return;
+    const bool is_next = at_ >= 0 && at_ + 1 == j;
+    if (is_next) upper_ = 1 - upper_;
+    at_ = j;
+    if (!is_next) make(j, upper_);
+    make((j + 1) & (size_ - 1), 1 - upper_);
   }
-  for (int level = 0; level < map.levels; ++level) {
-    const PackedQuad* const quads = map.scratch_quads.data();
-    const bool blends = level + 1 < map.levels && level + 1 != map.detail_levels;
-    join_levels(quads + map.level_offset[level],
-                blends ? quads + map.level_offset[level + 1] : nullptr, map.size >> level,
-                map.words.data() + map.level_offset[level]);
+  const std::int8_t* row() const { return bytes_[upper_].data(); }
+  const std::int8_t* next() const { return bytes_[1 - upper_].data(); }
+
+ private:
+  void make(std::ptrdiff_t j, std::size_t at) {
+    quantize_row(values_ + j * size_, size_, per_unit_, bytes_[at].data());
+  }
+
+  const float* values_;
+  int size_;
+  float per_unit_;
+  std::ptrdiff_t at_ = -1;
+  std::size_t upper_ = 0;
+  std::array<std::array<std::int8_t, kMostSize + 1>, 2> bytes_;
+};
+
+// A level of both channels.
+struct LevelRows {
+  ByteRows a, b;
+
+  LevelRows(const float* values_a, const float* values_b, int size, float per_unit)
+      : a(values_a, size, per_unit), b(values_b, size, per_unit) {}
+  void go_to(std::ptrdiff_t j) {
+    a.go_to(j);
+    b.go_to(j);
+  }
+  void pack(int first, int count, PackedQuad* quads) const {
+    pack_row(a.row() + first, a.next() + first, b.row() + first, b.next() + first, count, quads);
+  }
+};
+
+// Puts quads of a row beside those of the next coarser level around them.
+void join_quads(const PackedQuad* HWY_RESTRICT fine, const PackedQuad* HWY_RESTRICT coarse,
+                int count, PackedWord* HWY_RESTRICT words) {
+  const hn::Full128<PackedQuad> d;
+  for (int i = 0; i < count; i += 2) {
+    const auto pair = hn::LoadU(d, fine + i), around = hn::Set(d, coarse[i / 2]);
+    auto* const out = reinterpret_cast<PackedQuad*>(words + i);
+    hn::Store(hn::InterleaveLower(d, pair, around), d, out);
+    hn::Store(hn::InterleaveUpper(d, pair, around), d, out + 2);
+  }
+}
+
+// The words of a row, whose quads lie beside those of `coarse`, or beside 0 if that is null.
+void join_row(const LevelRows& fine, const LevelRows* coarse, int size,
+              PackedWord* HWY_RESTRICT words) {
+  constexpr int kChunk = 256;
+  std::array<PackedQuad, kChunk> quads, around;
+  for (int first = 0; first < size; first += kChunk) {
+    const int count = std::min(size - first, kChunk);
+    fine.pack(first, count, quads.data());
+    if (coarse) {
+      coarse->pack(first / 2, count / 2, around.data());
+      join_quads(quads.data(), around.data(), count, words + first);
+    } else {
+      for (int i = 0; i < count; ++i) words[first + i] = {quads[static_cast<std::size_t>(i)], 0};
+    }
   }
 }
 
@@ -308,57 +371,83 @@ void pack_row1(const std::int8_t* HWY_RESTRICT row0, const std::int8_t* HWY_REST
   }
 }
 
-void build_map1(const float* values, PackedMap1& map) {
-  float* const column = map.scratch.data();
-  float* next = column + map.size + 1;
+void build_map1(const float* values, PackedMap1& map, Workers* workers) {
+  float* next = map.scratch.data();
   for (int size = map.size;; size /= 2) {
-    const std::ptrdiff_t stride = size + 1;
-    std::int8_t* const bytes = map.scratch_bytes.data();
-    for (std::ptrdiff_t j = 0; j < size; ++j)
-      quantize_row(values + j * size, size, 127.0f, bytes + j * stride);
-    check_stop();
     std::uint32_t* const words = map.words.data() + static_cast<std::ptrdiff_t>(size) * size;
-    for (std::ptrdiff_t j = 0; j < size; ++j)
-      pack_row1(bytes + j * stride, bytes + ((j + 1) & (size - 1)) * stride, size,
-                words + j * size);
+    ForPieces(size, workers, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+      check_stop();
+      ByteRows rows(values, size, 127.0f);
+      for (std::ptrdiff_t j = first; j < end; ++j) {
+        rows.go_to(j);
+        pack_row1(rows.row(), rows.next(), size, words + j * size);
+      }
+    });
     if (size == 1) break;
-    check_stop();
-    filter_down(values, size, column, next);
+    filter_down(values, size, workers, next);
     values = next;
     next += static_cast<std::ptrdiff_t>(size / 2) * (size / 2);
   }
 }
 
+// Both channels of a level.
+struct LevelValues {
+  const float *a, *b;
+};
+
+void pack_level(const LevelValues& fine, const LevelValues* coarse, int size, float per_unit,
+                Workers* workers, PackedWord* words) {
+  ForPieces(size, workers, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
+    check_stop();
+    LevelRows rows(fine.a, fine.b, size, per_unit);
+    LevelRows around(coarse ? coarse->a : nullptr, coarse ? coarse->b : nullptr, size / 2,
+                     per_unit);
+    for (std::ptrdiff_t j = first; j < end; ++j) {
+      rows.go_to(j);
+      if (coarse) around.go_to(j / 2);
+      join_row(rows, coarse ? &around : nullptr, size, words + j * size);
+    }
+  });
+}
+
 void build_map(const float* a, const float* b, float fixed_scale, float least_variance,
-               PackedMap2& map) {
+               PackedMap2& map, Workers* workers) {
   const std::size_t texels = static_cast<std::size_t>(map.size) * map.size;
   map.scale = fixed_scale;
   if (!(fixed_scale > 0.0f)) {
     const float largest = std::max(max_magnitude(a, texels), max_magnitude(b, texels));
     map.scale = largest > 1e-30f ? largest / 127.0f : 1.0f;
   }
-  const float per_unit = 1.0f / map.scale;
-  float* const column = map.scratch.data();
-  float* next = column + map.size + 1;
+  std::array<LevelValues, kMostLevels> levels;
+  float* next = map.scratch.data();
   double first_mean = 0.0;
   for (int level = 0; level < map.levels; ++level) {
     const int size = map.size >> level;
     const std::ptrdiff_t level_texels = static_cast<std::ptrdiff_t>(size) * size;
-    const LevelSquares squares = build_level(a, b, size, per_unit, map.scratch_bytes.data(),
-                                             map.scratch_quads.data() + map.level_offset[level]);
+    levels[static_cast<std::size_t>(level)] = {a, b};
+    const LevelSquares squares = sum_level(a, b, size, workers, map.scratch_sums);
     if (level == 0) first_mean = squares.texels / static_cast<double>(level_texels);
     const double mean = (squares.texels - squares.lost_between) / static_cast<double>(level_texels);
     map.lost_variance[level] = static_cast<float>(std::max(0.0, first_mean - mean));
     if (mean < static_cast<double>(least_variance))
       map.detail_levels = std::min(map.detail_levels, level);
     if (size == 1) break;
-    filter_down(a, size, column, next);
-    filter_down(b, size, column, next + level_texels / 4);
+    filter_down(a, size, workers, next);
+    filter_down(b, size, workers, next + level_texels / 4);
     a = next;
     b = next + level_texels / 4;
     next += level_texels / 2;
   }
-  join_all_levels(map);
+  if (map.detail_levels == 0) {
+    std::ranges::fill(map.words, PackedWord{0, 0});
+    return;
+  }
+  for (int level = 0; level < map.levels; ++level) {
+    const auto at = static_cast<std::size_t>(level);
+    const bool blends = level + 1 < map.levels && level + 1 != map.detail_levels;
+    pack_level(levels[at], blends ? &levels[at + 1] : nullptr, map.size >> level, 1.0f / map.scale,
+               workers, map.words.data() + map.level_offset[at]);
+  }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -371,7 +460,7 @@ namespace swell::texture {
 HWY_EXPORT(build_map);
 HWY_EXPORT(build_map1);
 
-void pack_map1(int size, std::span<const float> values, PackedMap1& map) {
+void pack_map1(int size, std::span<const float> values, PackedMap1& map, Workers* workers) {
   const std::size_t texels = static_cast<std::size_t>(size) * size;
   SWELL_CHECK(size >= 1 && size <= 4096 && std::has_single_bit(static_cast<unsigned>(size)) &&
                   values.size() == texels,
@@ -379,14 +468,12 @@ void pack_map1(int size, std::span<const float> values, PackedMap1& map) {
   map.size = size;
   map.levels = std::countr_zero(static_cast<unsigned>(size)) + 1;
   resize_large(map.words, 2 * texels);
-  // A row; levels 1, 2, ...: 1/3 texels.
-  resize_large(map.scratch, size + 1 + texels);
-  resize_large(map.scratch_bytes, static_cast<std::size_t>(size + 1) * size);
-  HWY_DYNAMIC_DISPATCH(build_map1)(values.data(), map);
+  resize_large(map.scratch, texels / 3 + 1);
+  HWY_DYNAMIC_DISPATCH(build_map1)(values.data(), map, workers);
 }
 
 void pack_map2(int size, std::span<const float> a, std::span<const float> b, float fixed_scale,
-               PackedMap2& map, float least_variance) {
+               PackedMap2& map, float least_variance, Workers* workers) {
   SWELL_CHECK(size >= 1 && size <= 4096 && std::has_single_bit(static_cast<unsigned>(size)),
               "size={}", size);
   const std::size_t texels = static_cast<std::size_t>(size) * size;
@@ -396,17 +483,16 @@ void pack_map2(int size, std::span<const float> a, std::span<const float> b, flo
   map.levels = std::countr_zero(static_cast<unsigned>(size)) + 1;
   map.detail_levels = std::clamp(map.levels - 2, 1, kMostDetailLevels);
   resize_large(map.words, 2 * texels);
-  resize_large(map.scratch_quads, 2 * texels);
   map.level_offset.resize(map.levels);
   map.lost_variance.resize(map.levels);
   for (int level = 0; level < map.levels; ++level) {
     const std::uint32_t side = static_cast<std::uint32_t>(size) >> level;
     map.level_offset[level] = side * side;
   }
-  // A row; levels 1, 2, ... of both channels: 2/3 texels.
-  resize_large(map.scratch, size + 1 + texels);
-  resize_large(map.scratch_bytes, 2 * static_cast<std::size_t>(size + 1) * size);
-  HWY_DYNAMIC_DISPATCH(build_map)(a.data(), b.data(), fixed_scale, least_variance, map);
+  resize_large(map.scratch, 2 * texels / 3 + 1);
+  map.scratch_sums.resize(size);
+  HWY_DYNAMIC_DISPATCH(build_map)
+  (a.data(), b.data(), fixed_scale, least_variance, map, workers);
 }
 
 }  // namespace swell::texture

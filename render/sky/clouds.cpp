@@ -119,7 +119,7 @@ void build_cloud_map(std::uint64_t seed, glm::vec3 to_light, Workers& workers,
     x -= mean;
     variance += x * x / static_cast<float>(density.size());
   }
-  texture::pack_map2(n, density, side, 0.0f, map);
+  texture::pack_map2(n, density, side, 0.0f, map, 0.0f, &workers);
 }
 
 float part_under_clouds(double height_m) {

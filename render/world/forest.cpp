@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "math/for_each_row.h"
 #include "math/large_array.h"
 #include "math/stop.h"
 #include "ocean/inland/river_network.h"
@@ -42,10 +44,10 @@ struct Disc {
 class DiscMap {
  public:
   DiscMap(int size, double square_m)
-      : size_(size),
-        texels_per_m_(static_cast<float>(size / square_m)),
-        left_(make_large<float>(static_cast<std::size_t>(size) * size)) {
-    std::ranges::fill(left_, 1.0f);
+      : size_(size), texels_per_m_(static_cast<float>(size / square_m)) {
+    const auto texels = static_cast<std::size_t>(size) * size;
+    reserve_large(left_, texels);
+    left_.assign(texels, 1.0f);
   }
 
   // Lays discs 0 to count - 1, each disc(i), in their order at every texel.
@@ -144,11 +146,15 @@ Disc shadow_of(const Tree& tree, const terrain::HeightGrid& land, glm::vec3 to_l
           .part = kShadeOfCrown};
 }
 
-void pack(DiscMap discs, bool is_left, texture::PackedMap1& map) {
+void pack(DiscMap discs, bool is_left, Workers& workers, texture::PackedMap1& map) {
   const int size = discs.size();
   std::vector<float> values = std::move(discs).take_left();
-  for (float& value : values) value = 2.0f * (is_left ? value : 1.0f - value) - 1.0f;
-  texture::pack_map1(size, values, map);
+  for_each_row(size, workers, [&](int j) {
+    for (float& value : std::span(values).subspan(static_cast<std::size_t>(j) * size, size))
+      value = 2.0f * (is_left ? value : 1.0f - value) - 1.0f;
+  });
+  texture::pack_map1(size, values, map, &workers);
+  map.scratch = {};
 }
 
 float crowding_at(const Tree& tree, const DiscMap& cover) {
@@ -226,8 +232,8 @@ void add_canopy(const terrain::HeightGrid& land, glm::vec3 to_light, Workers& wo
   constexpr float kBetweenCrowns = 0.9f;  // of a crown's light, with the shade around it
   forest.canopy_albedo = kBetweenCrowns * albedo / area;
   forest.mean_height_m = height / area;
-  workers.run_both([&] { pack(std::move(cover), false, forest.cover); },
-                   [&] { pack(std::move(shade), true, forest.sun_left); });
+  pack(std::move(cover), false, workers, forest.cover);
+  pack(std::move(shade), true, workers, forest.sun_left);
 }
 
 // Metres from the edge of the nearest river, below 0 in it and in lakes with an outline.

@@ -172,7 +172,7 @@ void light_ground(const terrain::HeightGrid& land, glm::dvec3 sun, double water_
     }
   });
   if (std::ranges::all_of(lit, [](float x) { return x >= 0.99f; })) return;
-  texture::pack_map2(n, lit, none, 1.0f / 127.0f, s.ground);
+  texture::pack_map2(n, lit, none, 1.0f / 127.0f, s.ground, 0.0f, &workers);
 }
 
 }  // namespace

@@ -49,8 +49,8 @@ void map_fronts(const terrain::ShoreMap& shore, NearShoreMap& near, Workers& wor
     east[k] = reach_m * place.part_slope.x;
     north[k] = reach_m * place.part_slope.y;
   });
-  texture::pack_map2(kNearShoreSize, root, height, 1.0f / 127.0f, near.lift);
-  texture::pack_map2(kNearShoreSize, east, north, 2.0f / 127.0f, near.seaward);
+  texture::pack_map2(kNearShoreSize, root, height, 1.0f / 127.0f, near.lift, 0.0f, &workers);
+  texture::pack_map2(kNearShoreSize, east, north, 2.0f / 127.0f, near.seaward, 0.0f, &workers);
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ NearShoreMap build_near_shore(const WorldState& world, Workers& workers) {
     taken[k] = 1.0f - kept;
     part[k] = ocean::part_of_reach(near.zone, shore, p, 1.0f);
   });
-  texture::pack_map2(kNearShoreSize, taken, part, 1.0f / 127.0f, near.map);
+  texture::pack_map2(kNearShoreSize, taken, part, 1.0f / 127.0f, near.map, 0.0f, &workers);
   near.fronts = scene::build_surf_fronts(world.scene, *world.sea, world.terrain.get(), &shore,
                                          world.shelter.get(), workers);
   if (near.fronts) map_fronts(shore, near, workers);

@@ -166,9 +166,10 @@ texture::RgbaImage paint_around(const Relief& relief, const std::vector<GroundPl
   });
 }
 
-texture::PackedMap2 pack_slopes(const Relief& relief) {
+texture::PackedMap2 pack_slopes(const Relief& relief, Workers& workers) {
   texture::PackedMap2 map;
-  texture::pack_map2(relief.size, relief.slope_x, relief.slope_y, 0.0f, map);
+  texture::pack_map2(relief.size, relief.slope_x, relief.slope_y, 0.0f, map, 0.0f, &workers);
+  map.scratch = {};
   return map;
 }
 
@@ -214,21 +215,15 @@ TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain,
       find_places(relief_around, coarse.spacing_m, noise, workers,
                   [](int i, int j) { return mirrored_noise(2 * i, 2 * j); });
 
-  TerrainMaps maps;
-  // Packing slopes takes one thread each.
-  workers.run_both(
-      [&] {
-        maps.ground = pack_ground(relief, step_m, places, materials, workers);
-        maps.slopes = pack_slopes(relief);
-      },
-      [&] {
-        maps.ground_around =
-            pack_ground(relief_around, coarse.spacing_m, places_around, materials, workers);
-        maps.slopes_around = pack_slopes(relief_around);
-        maps.albedo = paint_map(relief, places, materials, workers);
-        maps.albedo_around = paint_around(relief_around, places_around, noise, materials, workers);
-      });
-  return maps;
+  return {
+      .slopes = pack_slopes(relief, workers),
+      .slopes_around = pack_slopes(relief_around, workers),
+      .albedo = paint_map(relief, places, materials, workers),
+      .albedo_around = paint_around(relief_around, places_around, noise, materials, workers),
+      .ground = pack_ground(relief, step_m, places, materials, workers),
+      .ground_around =
+          pack_ground(relief_around, coarse.spacing_m, places_around, materials, workers),
+  };
 }
 
 }  // namespace swell::render

@@ -1,6 +1,7 @@
 #include "math/large_array.h"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <cstdint>
 #include <fstream>
@@ -49,6 +50,34 @@ TEST(LargeArray, HoldsWhatAVectorHolds) {
   EXPECT_EQ(array.data(), before);
   EXPECT_EQ(array[1], 2);
   EXPECT_EQ(array[2], 0);
+}
+
+TEST(LargeArray, OfZeroPagesTakesMemoryWhereItIsWrittenTo) {
+  const auto is_there = [](float* address) {
+    char* const byte = reinterpret_cast<char*>(address);
+    unsigned char flags = 0;
+    EXPECT_EQ(mincore(byte - reinterpret_cast<std::uintptr_t>(byte) % 4096, 1, &flags), 0);
+    return (flags & 1) != 0;
+  };
+  LargeArray<float> array;
+  array.resize(std::size_t{1} << 26);  // 256 MB
+  EXPECT_FALSE(is_there(&array[array.size() / 2]));
+  array[array.size() / 4] = 1.0f;
+  EXPECT_TRUE(is_there(&array[array.size() / 4]));
+  EXPECT_EQ(array[array.size() / 2], 0.0f);
+  EXPECT_EQ(array.back(), 0.0f);
+}
+
+TEST(LargeArray, OfZeroPagesHoldsWhatItHeldBefore) {
+  LargeArray<int> array = {1, 2, 3};
+  resize_large(array, std::size_t{1} << 20);
+  EXPECT_EQ(array[2], 3);
+  EXPECT_EQ(array.back(), 0);
+  array.back() = 7;
+  resize_large(array, 2);
+  resize_large(array, std::size_t{1} << 20);
+  EXPECT_EQ(array[1], 2);
+  EXPECT_EQ(array.back(), 7);
 }
 
 TEST(LargeArray, TakesFewAndNone) {

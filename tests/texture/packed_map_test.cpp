@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "allocation_count.h"
+#include "math/parallel.h"
 #include "texture/packed_texels.h"
 
 namespace swell::texture {
@@ -174,6 +175,24 @@ TEST_P(PackedMap, RepackingAllocatesNothing) {
   const std::uint64_t before = allocation_count();
   pack_map2(64, a, a, 0.0f, map);
   EXPECT_EQ(allocation_count() - before, 0u);
+}
+
+TEST(PackedMapThreads, ShareRowsAndChangeNoBit) {
+  Workers workers(3);
+  for (const int size : {1, 64, 128, 512}) {
+    const auto texels = static_cast<std::size_t>(size) * size;
+    const std::vector<float> a = random_floats(texels, -3.0, 3.0, 41);
+    const std::vector<float> b = random_floats(texels, -3.0, 3.0, 42);
+    PackedMap2 alone, shared;
+    pack_map2(size, a, b, 0.0f, alone);
+    pack_map2(size, a, b, 0.0f, shared, 0.0f, &workers);
+    EXPECT_EQ(shared.words, alone.words) << size;
+    EXPECT_EQ(shared.lost_variance, alone.lost_variance) << size;
+    PackedMap1 alone1, shared1;
+    pack_map1(size, a, alone1);
+    pack_map1(size, a, shared1, &workers);
+    EXPECT_EQ(shared1.words, alone1.words) << size;
+  }
 }
 
 TEST(PackedMapTargets, GiveTheSameBits) {
