@@ -23,7 +23,7 @@ template <class T>
 class ZeroPages {
  public:
   using value_type = T;
-  static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= alignof(std::max_align_t));
+  static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= alignof(std::max_align_t));
 
   ZeroPages() = default;
   template <class U>
@@ -60,10 +60,10 @@ void resize_large(std::vector<T, Memory>& array, std::size_t count) {
   array.resize(count);
 }
 
-// Makes such an array of `count` elements, each T().
+// Makes such an array of `count` zeros.
 template <class T>
-std::vector<T> make_large(std::size_t count) {
-  std::vector<T> array;
+LargeArray<T> make_large(std::size_t count) {
+  LargeArray<T> array;
   resize_large(array, count);
   return array;
 }

@@ -101,8 +101,8 @@ void lower_envelope(const Line<float>& line, Envelope& store) {
 }
 
 // Squared distances, in cells, to where rows cross the line, or columns.
-std::vector<float> squared_distances(std::span<const float> height, std::size_t side, bool rows,
-                                     Workers& workers) {
+LargeArray<float> squared_distances(std::span<const float> height, std::size_t side, bool rows,
+                                    Workers& workers) {
   auto squared = make_large<float>(height.size());
   const std::size_t along = rows ? 1 : side, across = rows ? side : 1;
   for_each_line(side, workers, [&](std::size_t n) {
@@ -150,13 +150,14 @@ ShoreMap::ShoreMap(const HeightGrid& land, Workers& workers) : grid_(map_grid(la
       p[i] = grid_.point(static_cast<int>(i), static_cast<int>(j));
     sample_heights(land, p, std::span(height_m_).subspan(j * side, side));
   });
-  distance_m_ = squared_distances(height_m_, side, true, workers);
-  const std::vector<float> by_column = squared_distances(height_m_, side, false, workers);
-  has_line_ = std::min(distance_m_.front(), by_column.front()) < kFar;
+  const LargeArray<float> by_row = squared_distances(height_m_, side, true, workers);
+  const LargeArray<float> by_column = squared_distances(height_m_, side, false, workers);
+  has_line_ = std::min(by_row.front(), by_column.front()) < kFar;
   const auto cell_m = static_cast<float>(grid_.spacing_m);
   const float diagonal_m = cell_m * std::sqrt(2.0f) * static_cast<float>(side - 1);
+  resize_large(distance_m_, grid_.size());
   for (std::size_t k = 0; k < distance_m_.size(); ++k) {
-    const float squared = std::min(distance_m_[k], by_column[k]);
+    const float squared = std::min(by_row[k], by_column[k]);
     const float far_m = squared < kFar ? cell_m * std::sqrt(squared) : diagonal_m;
     distance_m_[k] = height_m_[k] > 0.0f ? -far_m : far_m;
   }

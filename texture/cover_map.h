@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <tuple>
-#include <vector>
+
+#include "math/large_array.h"
 
 namespace swell {
 class Workers;
@@ -26,7 +28,7 @@ struct alignas(16) CoverWord {
 struct CoverMap {
   int size = 0;    // power of two, [1, 4096]
   int levels = 0;  // log2(size) + 1
-  std::vector<CoverWord> words;
+  LargeArray<CoverWord> words;
 
   auto fields() { return std::tie(size, levels, words); }
 };
@@ -34,7 +36,7 @@ struct CoverMap {
 // From size x size values, row-major; sample (i, j) lies on the lattice at u = i / size. Values are
 // clamped. Mip levels by the tent filter [1 2 1]/4 along each axis, as pack_map2's: they keep the
 // mean.
-CoverMap pack_cover(int size, std::vector<glm::vec4> values, Workers& workers);
+CoverMap pack_cover(int size, std::span<const glm::vec4> values, Workers& workers);
 
 // The four channels at a place in texels of the finest level, bilinearly; finite, within 1e9. The
 // map repeats.

@@ -117,7 +117,7 @@ SurfFronts make_surf_fronts(const terrain::ShoreMap& shore, const terrain::Grid&
                             const Sea& sea, const Shelter& shelter, double surf_width,
                             Workers& workers) {
   SurfFronts fronts{find_surf_zone(shore, land, sea, surf_width), shore.grid(), {}};
-  fronts.points = make_large<FrontPoint>(fronts.grid.size());
+  resize_large(fronts.points, fronts.grid.size());
   const auto height_m = static_cast<float>(sea.significant_height_m());
   workers.for_each(static_cast<std::size_t>(fronts.grid.samples_y), [&](std::size_t row, int) {
     const int j = static_cast<int>(row);

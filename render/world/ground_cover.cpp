@@ -138,8 +138,8 @@ glm::vec3 ground_albedo(const GroundPlace& place, const terrain::GroundMaterials
   return glm::mix(land, floor, smoothstep(0.1f, 2.0f, -place.height_m));
 }
 
-std::vector<float> find_hollows(int size, const std::vector<float>& height_m, double step_m,
-                                Workers& workers) {
+LargeArray<float> find_hollows(int size, const std::vector<float>& height_m, double step_m,
+                               Workers& workers) {
   const int radius = std::max(size / 32, 1);
   auto along_x = make_large<float>(height_m.size()), mean = make_large<float>(height_m.size());
   for_each_row(size, workers, [&](int j) {
@@ -151,13 +151,16 @@ std::vector<float> find_hollows(int size, const std::vector<float>& height_m, do
   });
   // A hollow a tenth as deep as its surroundings are wide is as wet as can be.
   const float per_m = 10.0f / static_cast<float>(radius * step_m);
-  for (std::size_t k = 0; k < mean.size(); ++k)
-    mean[k] = clamp_to((mean[k] - height_m[k]) * per_m, -1.0f, 1.0f);
+  for_each_row(size, workers, [&](int j) {
+    const std::size_t row = static_cast<std::size_t>(j) * size;
+    for (std::size_t k = row; k < row + size; ++k)
+      mean[k] = clamp_to((mean[k] - height_m[k]) * per_m, -1.0f, 1.0f);
+  });
   return mean;
 }
 
-std::vector<float> find_sky_seen(int size, const std::vector<float>& height_m, double step_m,
-                                 Workers& workers) {
+LargeArray<float> find_sky_seen(int size, const std::vector<float>& height_m, double step_m,
+                                Workers& workers) {
   constexpr int kStride = 4;
   const Heights heights{size, height_m};
   const int coarse = std::max(size / kStride, 1) + 1;

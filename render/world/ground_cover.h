@@ -69,14 +69,14 @@ glm::vec3 ground_albedo(const GroundPlace& place, const terrain::GroundMaterials
 
 // Over a square of heights, size x size samples step_m apart: hollow() by how deep a place lies
 // below the mean of its surroundings, 1/32 of the side to each hand.
-std::vector<float> find_hollows(int size, const std::vector<float>& height_m, double step_m,
-                                Workers& workers);
+LargeArray<float> find_hollows(int size, const std::vector<float>& height_m, double step_m,
+                               Workers& workers);
 
 // The part of the sky that the ground sees where the ground around rises above the plane that it
 // lies in, over what that plane would see: the mean of cos^2 of the horizon's elevation in eight
 // directions. At every 4th sample, blended between them; 1 on a plane. Linear in the samples; 30 ms
 // for 1024 x 1024 on two threads.
-std::vector<float> find_sky_seen(int size, const std::vector<float>& height_m, double step_m,
-                                 Workers& workers);
+LargeArray<float> find_sky_seen(int size, const std::vector<float>& height_m, double step_m,
+                                Workers& workers);
 
 }  // namespace swell::render

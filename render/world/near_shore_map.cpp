@@ -18,7 +18,7 @@ namespace swell::render {
 namespace {
 
 // Values of a map of kNearShoreSize points a side.
-std::vector<float> make_values() {
+LargeArray<float> make_values() {
   return make_large<float>(static_cast<std::size_t>(kNearShoreSize) * kNearShoreSize);
 }
 
@@ -39,8 +39,8 @@ void map_fronts(const terrain::ShoreMap& shore, NearShoreMap& near, Workers& wor
   near.lift_m = fronts.height_bound_m / (1.0f - ocean::kFrontMean);
   const float over_m = near.lift_m > 0.0f ? 1.0f / near.lift_m : 0.0f;
   const auto reach_m = static_cast<float>(near.zone.reach_m);
-  std::vector<float> root = make_values(), height = make_values(), east = make_values(),
-                     north = make_values();
+  LargeArray<float> root = make_values(), height = make_values(), east = make_values(),
+                    north = make_values();
   for_each_point(near, workers, [&](std::size_t k, glm::dvec2 p) {
     const ocean::FrontPlace place = ocean::place_in_fronts(fronts, p);
     const float part = place.at.part / ocean::kFrontsFrom;
@@ -62,7 +62,7 @@ NearShoreMap build_near_shore(const WorldState& world, Workers& workers) {
   near.size_m = shore.grid().size_m();
   near.zone =
       ocean::find_surf_zone(shore, world.terrain->grid, *world.sea, world.scene.coast.surf_width);
-  std::vector<float> taken = make_values(), part = make_values();
+  LargeArray<float> taken = make_values(), part = make_values();
   for_each_point(near, workers, [&](std::size_t k, glm::dvec2 p) {
     float kept = 1.0f;
     ocean::apply_shelter(*world.shelter, {&p, 1}, {&kept, 1});

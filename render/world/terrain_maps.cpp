@@ -22,7 +22,7 @@ constexpr int kTerrainMapSize = 1024;
 
 // Noise that colours the ground, over the terrain's square: sand and scrub, clumps of trees.
 struct GroundNoise {
-  std::vector<float> patchiness, clumps;  // kTerrainMapSize a side
+  LargeArray<float> patchiness, clumps;  // kTerrainMapSize a side
 };
 
 GroundNoise make_ground_noise(double step_m, std::uint64_t seed, Workers& workers) {
@@ -50,7 +50,8 @@ GroundNoise make_ground_noise(double step_m, std::uint64_t seed, Workers& worker
 // A square of heights, and their slopes by central differences.
 struct Relief {
   int size;
-  std::vector<float> height_m, slope_x, slope_y;
+  std::vector<float> height_m;
+  LargeArray<float> slope_x, slope_y;
 
   float steepness(std::size_t k) const {
     return std::sqrt(slope_x[k] * slope_x[k] + slope_y[k] * slope_y[k]);
@@ -58,9 +59,8 @@ struct Relief {
 };
 
 Relief make_relief(int size, double step_m, std::vector<float> height_m, Workers& workers) {
-  Relief relief{size, std::move(height_m), {}, {}};
-  resize_large(relief.slope_x, relief.height_m.size());
-  resize_large(relief.slope_y, relief.height_m.size());
+  const std::size_t count = height_m.size();
+  Relief relief{size, std::move(height_m), make_large<float>(count), make_large<float>(count)};
   const auto at = [&](int i, int j) {
     return relief.height_m[static_cast<std::size_t>(std::clamp(j, 0, size - 1)) * size +
                            std::clamp(i, 0, size - 1)];
@@ -90,10 +90,10 @@ texture::RgbaImage paint(int size, Workers& workers, const AlbedoAt& albedo_at) 
   return image;
 }
 
-CoverMaps pack_ground(const Relief& relief, double step_m, const std::vector<GroundPlace>& places,
+CoverMaps pack_ground(const Relief& relief, double step_m, const LargeArray<GroundPlace>& places,
                       const terrain::GroundMaterials& materials, Workers& workers) {
-  const std::vector<float> sky_seen = find_sky_seen(relief.size, relief.height_m, step_m, workers);
-  std::array<std::vector<glm::vec4>, std::tuple_size_v<CoverMaps>> values;
+  const LargeArray<float> sky_seen = find_sky_seen(relief.size, relief.height_m, step_m, workers);
+  std::array<LargeArray<glm::vec4>, std::tuple_size_v<CoverMaps>> values;
   for (auto& four : values) four = make_large<glm::vec4>(places.size());
   for_each_row(relief.size, workers, [&](int j) {
     for (int i = 0; i < relief.size; ++i) {
@@ -108,15 +108,15 @@ CoverMaps pack_ground(const Relief& relief, double step_m, const std::vector<Gro
   });
   CoverMaps maps;
   for (std::size_t n = 0; n < maps.size(); ++n)
-    maps[n] = texture::pack_cover(relief.size, std::move(values[n]), workers);
+    maps[n] = texture::pack_cover(relief.size, values[n], workers);
   return maps;
 }
 
 // What the places of a relief are like: noise_at(i, j) numbers the texel of the noise.
 template <class NoiseAt>
-std::vector<GroundPlace> find_places(const Relief& relief, double step_m, const GroundNoise& noise,
-                                     Workers& workers, const NoiseAt& noise_at) {
-  const std::vector<float> hollow = find_hollows(relief.size, relief.height_m, step_m, workers);
+LargeArray<GroundPlace> find_places(const Relief& relief, double step_m, const GroundNoise& noise,
+                                    Workers& workers, const NoiseAt& noise_at) {
+  const LargeArray<float> hollow = find_hollows(relief.size, relief.height_m, step_m, workers);
   auto places = make_large<GroundPlace>(hollow.size());
   for_each_row(relief.size, workers, [&](int j) {
     for (int i = 0; i < relief.size; ++i) {
@@ -128,7 +128,7 @@ std::vector<GroundPlace> find_places(const Relief& relief, double step_m, const 
   return places;
 }
 
-texture::RgbaImage paint_map(const Relief& relief, const std::vector<GroundPlace>& places,
+texture::RgbaImage paint_map(const Relief& relief, const LargeArray<GroundPlace>& places,
                              const terrain::GroundMaterials& materials, Workers& workers) {
   return paint(relief.size, workers, [&](int i, int j) {
     return ground_albedo(places[static_cast<std::size_t>(j) * relief.size + i], materials);
@@ -146,7 +146,7 @@ std::size_t mirrored_noise(int i, int j) {
 }
 
 // Two texels to each of the relief's; heights and noise of their own.
-texture::RgbaImage paint_around(const Relief& relief, const std::vector<GroundPlace>& places,
+texture::RgbaImage paint_around(const Relief& relief, const LargeArray<GroundPlace>& places,
                                 const GroundNoise& noise, const terrain::GroundMaterials& materials,
                                 Workers& workers) {
   return paint(2 * relief.size, workers, [&](int i, int j) {
@@ -176,7 +176,8 @@ texture::PackedMap2 pack_slopes(const Relief& relief, Workers& workers) {
 // The surface at `size` x `size` points from the grid's corner.
 std::vector<float> sample_square(const terrain::HeightGrid& terrain, const terrain::Grid& grid,
                                  Workers& workers) {
-  auto height_m = make_large<float>(grid.size());
+  std::vector<float> height_m;
+  resize_large(height_m, grid.size());
   for_each_row(grid.samples_y, workers, [&](int j) {
     std::vector<glm::dvec2> p(static_cast<std::size_t>(grid.samples_x));
     for (int i = 0; i < grid.samples_x; ++i) p[static_cast<std::size_t>(i)] = grid.point(i, j);
@@ -208,10 +209,10 @@ TerrainMaps build_terrain_maps(const terrain::HeightGrid& terrain,
   const Relief relief_around = make_relief(kAroundSize, coarse.spacing_m,
                                            terrain::resample(around, coarse).height_m, workers);
   const terrain::GroundMaterials& materials = description.ground;
-  const std::vector<GroundPlace> places =
+  const LargeArray<GroundPlace> places =
       find_places(relief, step_m, noise, workers,
                   [](int i, int j) { return static_cast<std::size_t>(j) * n + i; });
-  const std::vector<GroundPlace> places_around =
+  const LargeArray<GroundPlace> places_around =
       find_places(relief_around, coarse.spacing_m, noise, workers,
                   [](int i, int j) { return mirrored_noise(2 * i, 2 * j); });
 

@@ -96,7 +96,7 @@ TEST(Land, SeesLessSkyInValleys) {
   std::vector<float> height_m;
   for (int j = 0; j < kSize; ++j)
     for (int i = 0; i < kSize; ++i) height_m.push_back(std::abs(static_cast<float>(i - kSize / 2)));
-  const std::vector<float> seen = find_sky_seen(kSize, height_m, 1.0, workers);
+  const LargeArray<float> seen = find_sky_seen(kSize, height_m, 1.0, workers);
   const auto at = [&](int i) { return seen[static_cast<std::size_t>(kSize / 2) * kSize + i]; };
   // At the bottom the ground rises at 45 degrees to either hand, along diagonals at 35.3: cos^2 is
   // 1/2 twice, 2/3 four times and 1 twice.
