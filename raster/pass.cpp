@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kVerticesPerJob = 8192;
 constexpr std::size_t kMinTrianglesPerChunk = 1024;
-constexpr std::size_t kMostChunks = 128;  // of a draw, about
+constexpr std::size_t kMostChunks = 64;  // of a draw, about
 constexpr std::size_t kTilesPerJob = 4096;
 
 void check_draw(const Draw& draw) {

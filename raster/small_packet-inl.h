@@ -31,6 +31,7 @@ class SmallQueue {
     corners_[count_] = &chunk.corners[place];
     depths_[count_] = &chunk.depths[place];
     hwy::Prefetch(corners_[count_]);
+    hwy::Prefetch(depths_[count_]);
     count_ += counts;
   }
   HWY_INLINE bool IsFull() const { return count_ == kRoom; }
