@@ -28,6 +28,8 @@ struct alignas(16) PackedWord {
   bool operator==(const PackedWord&) const = default;
 };
 
+inline constexpr int kMostPackedSize = 4096;  // of a map, a side
+
 // Sums over a row of a level, both channels together or each: of squares, and of squared
 // differences of texels side by side and across.
 struct PackedRowSums {
@@ -39,7 +41,7 @@ struct PackedRowSums {
 // scale. Level l is (size >> l) squared, down to 1 x 1; a level of side s begins at word s * s, so
 // that a sampler finds it without a table.
 struct PackedMap2 {
-  int size = 0;    // power of two, [1, 4096]
+  int size = 0;    // power of two, [1, kMostPackedSize]
   int levels = 0;  // log2(size) + 1
   // Levels below this hold detail worth blending, at most kMostDetailLevels: all but the two
   // coarsest and those with too little variance; at least 1, or 0 if there is too little in all.
@@ -69,8 +71,9 @@ inline constexpr int kMostDetailLevels = 7;
 // 127 (1 if all are 0), or `fixed_scale` if positive (values are clamped). Bytes are rounded to
 // nearest even. Values must be finite. A level whose mean square, of a and b together, is below
 // `least_variance` has no detail, and no coarser one has. Keeps capacity; allocates nothing when
-// sizes repeat. Rows are shared by the threads of `workers`, if there are any; the same bits with
-// any number of them and on every SIMD target.
+// sizes repeat. Rows are shared by the threads of `workers`, if given: for maps that are made once,
+// which then keep no scratch memory. The same bits with any number of them and on every SIMD
+// target.
 void pack_map2(int size, std::span<const float> a, std::span<const float> b, float fixed_scale,
                PackedMap2& map, float least_variance = 0.0f, Workers* workers = nullptr);
 
@@ -79,7 +82,7 @@ void pack_map2(int size, std::span<const float> a, std::span<const float> b, flo
 // v(i+1,j) v(i,j+1) v(i+1,j+1). For what changes every frame and is looked up on one level: a
 // quarter of the memory.
 struct PackedMap1 {
-  int size = 0;    // power of two, [1, 4096]
+  int size = 0;    // power of two, [1, kMostPackedSize]
   int levels = 0;  // log2(size) + 1
   LargeArray<std::uint32_t> words;
   LargeArray<float> scratch;  // coarser levels

@@ -27,7 +27,7 @@ using D = hn::CappedTag<float, 8>;
 using V = hn::Vec<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 constexpr int kQuadsAtOnce = 16;
-constexpr int kMostSize = 4096, kMostLevels = 13;
+constexpr int kMostLevels = std::bit_width(static_cast<unsigned>(kMostPackedSize));
 
 // Calls body(first, end) for rows of a level, on all threads of `workers` where that is worth it.
 template <class Body>
@@ -155,7 +155,7 @@ void filter_row(const float* HWY_RESTRICT above, const float* HWY_RESTRICT row,
 void filter_down(const float* HWY_RESTRICT from, int size, Workers* workers,
                  float* HWY_RESTRICT to) {
   ForPieces(size / 2, workers, [&](std::ptrdiff_t first, std::ptrdiff_t end) {
-    std::array<float, kMostSize + 1> column;
+    std::array<float, kMostPackedSize + 1> column;
     check_stop();
     for (std::ptrdiff_t j = first; j < end; ++j) {
       const std::ptrdiff_t y = 2 * j, above = (y + size - 1) & (size - 1);
@@ -278,7 +278,7 @@ class ByteRows {
   // Goes to row j; downwards one by one each row is made once.
   void go_to(std::ptrdiff_t j) {
     if (at_ == j) return;
-    const bool is_next = at_ >= 0 && at_ + 1 == j;
+    const bool is_next = at_ + 1 == j;
     if (is_next) upper_ = 1 - upper_;
     at_ = j;
     if (!is_next) make(j, upper_);
@@ -295,9 +295,9 @@ class ByteRows {
   const float* values_;
   int size_;
   float per_unit_;
-  std::ptrdiff_t at_ = -1;
+  std::ptrdiff_t at_ = -2;  // next to none
   std::size_t upper_ = 0;
-  std::array<std::array<std::int8_t, kMostSize + 1>, 2> bytes_;
+  std::array<std::array<std::int8_t, kMostPackedSize + 1>, 2> bytes_;
 };
 
 // A level of both channels.
@@ -462,20 +462,22 @@ HWY_EXPORT(build_map1);
 
 void pack_map1(int size, std::span<const float> values, PackedMap1& map, Workers* workers) {
   const std::size_t texels = static_cast<std::size_t>(size) * size;
-  SWELL_CHECK(size >= 1 && size <= 4096 && std::has_single_bit(static_cast<unsigned>(size)) &&
-                  values.size() == texels,
+  SWELL_CHECK(size >= 1 && size <= kMostPackedSize &&
+                  std::has_single_bit(static_cast<unsigned>(size)) && values.size() == texels,
               "size={} values={}", size, values.size());
   map.size = size;
   map.levels = std::countr_zero(static_cast<unsigned>(size)) + 1;
   resize_large(map.words, 2 * texels);
   resize_large(map.scratch, texels / 3 + 1);
   HWY_DYNAMIC_DISPATCH(build_map1)(values.data(), map, workers);
+  if (workers) map.scratch = {};
 }
 
 void pack_map2(int size, std::span<const float> a, std::span<const float> b, float fixed_scale,
                PackedMap2& map, float least_variance, Workers* workers) {
-  SWELL_CHECK(size >= 1 && size <= 4096 && std::has_single_bit(static_cast<unsigned>(size)),
-              "size={}", size);
+  SWELL_CHECK(
+      size >= 1 && size <= kMostPackedSize && std::has_single_bit(static_cast<unsigned>(size)),
+      "size={}", size);
   const std::size_t texels = static_cast<std::size_t>(size) * size;
   SWELL_CHECK(a.size() == texels && b.size() == texels, "a={} b={} size={}", a.size(), b.size(),
               size);
@@ -493,6 +495,7 @@ void pack_map2(int size, std::span<const float> a, std::span<const float> b, flo
   map.scratch_sums.resize(size);
   HWY_DYNAMIC_DISPATCH(build_map)
   (a.data(), b.data(), fixed_scale, least_variance, map, workers);
+  if (workers) map.scratch = {};
 }
 
 }  // namespace swell::texture

@@ -154,7 +154,6 @@ void pack(DiscMap discs, bool is_left, Workers& workers, texture::PackedMap1& ma
       value = 2.0f * (is_left ? value : 1.0f - value) - 1.0f;
   });
   texture::pack_map1(size, values, map, &workers);
-  map.scratch = {};
 }
 
 float crowding_at(const Tree& tree, const DiscMap& cover) {

@@ -169,7 +169,6 @@ texture::RgbaImage paint_around(const Relief& relief, const LargeArray<GroundPla
 texture::PackedMap2 pack_slopes(const Relief& relief, Workers& workers) {
   texture::PackedMap2 map;
   texture::pack_map2(relief.size, relief.slope_x, relief.slope_y, 0.0f, map, 0.0f, &workers);
-  map.scratch = {};
   return map;
 }
 
